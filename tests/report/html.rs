@@ -7,9 +7,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
 
 static PAGES: LazyLock<BTreeMap<&str, String>> = LazyLock::new(|| {
-    let text = |page: &str| String::from_utf8(QUICK.report[page].clone()).unwrap();
+    let page_text = |page: &str| String::from_utf8(QUICK.report[page].clone()).unwrap();
     let documents = QUICK.paper.edition.documents.iter();
-    documents.map(|document| (document.page, text(document.page))).collect()
+    documents.map(|document| (document.page, page_text(document.page))).collect()
 });
 
 fn parsed(text: &str) -> Document<'_> {
@@ -44,18 +44,18 @@ fn words(node: Node<'_, '_>) -> String {
 
 #[test]
 fn every_link_lands_wherever_the_report_is_written() {
-    let links = |text: &str| {
-        let page = parsed(text);
-        let all =
+    let links = |html: &str| {
+        let page = parsed(html);
+        let attributes =
             |name| page.descendants().filter_map(move |n| n.attribute(name)).map(String::from);
-        let links = all("href").chain(all("src")).filter(|to| !to.starts_with("data:"));
-        (links.collect(), all("id").collect())
+        let links = attributes("href").chain(attributes("src")).filter(|to| !to.starts_with("data:"));
+        (links.collect(), attributes("id").collect())
     };
     super::links_land(
         |report| {
             let page = |of: &literate::report::Document| {
-                let text = std::str::from_utf8(&report[of.page]).unwrap();
-                (of.page.to_string(), links(text))
+                let html = std::str::from_utf8(&report[of.page]).unwrap();
+                (of.page.to_string(), links(html))
             };
             let cards = format!("<p>{}</p>", cards(report).0.concat());
             let cards = ("cards.js".to_string(), links(&cards));
@@ -138,8 +138,8 @@ fn equations_are_mathml() {
     let page = page("report.html");
     assert!(elements(&page, "math").len() > 300);
     assert!(elements(&page, "merror").is_empty());
-    let texts = page.descendants().filter(Node::is_text);
-    for text in texts.filter_map(|node| node.text()) {
-        assert!(!text.contains(['\u{e000}', '\u{e003}', '\u{e005}', '$']), "{text:?}");
+    let text_nodes = page.descendants().filter(Node::is_text);
+    for node_text in text_nodes.filter_map(|node| node.text()) {
+        assert!(!node_text.contains(['\u{e000}', '\u{e003}', '\u{e005}', '$']), "{node_text:?}");
     }
 }
