@@ -48,7 +48,8 @@ fn every_link_lands_wherever_the_report_is_written() {
         let page = parsed(html);
         let attributes =
             |name| page.descendants().filter_map(move |n| n.attribute(name)).map(String::from);
-        let links = attributes("href").chain(attributes("src")).filter(|to| !to.starts_with("data:"));
+        let links =
+            attributes("href").chain(attributes("src")).filter(|to| !to.starts_with("data:"));
         (links.collect(), attributes("id").collect())
     };
     super::links_land(

@@ -167,7 +167,8 @@ fn the_half_height_is_that_of_realisations_with_an_impact() {
             for curve in
                 results.of_mut(experiment).unwrap().iter_mut().flat_map(|it| &mut it.curves)
             {
-                (curve.rise.half_height, curve.rise.half_height_all) = (estimate(half_height), estimate(of_all));
+                (curve.rise.half_height, curve.rise.half_height_all) =
+                    (estimate(half_height), estimate(of_all));
             }
         }
         judged(&results, &[("sec2_half_height", expected)]);
@@ -208,7 +209,8 @@ fn the_promise_of_the_engine_follows_the_numbers() {
 #[test]
 fn the_page_has_each_run_with_its_digest_and_the_module() {
     let script = impact_paper::lab::script(b"foobar", &QUICK.results, "end();").unwrap();
-    let data = script.split("const LAB = ").nth(1).unwrap().strip_suffix(";\n{\nend();}\n").unwrap();
+    let data =
+        script.split("const LAB = ").nth(1).unwrap().strip_suffix(";\n{\nend();}\n").unwrap();
     let data: serde_json::Value = serde_json::from_str(data).unwrap();
     assert_eq!(data["module"], "Zm9vYmFy");
     let protocols = data["protocols"].as_array().unwrap();

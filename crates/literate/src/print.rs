@@ -9,7 +9,7 @@ use crate::value::{Digits, Number, Value, Written};
 /// What filters of a template change of a value.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Style {
-    pub percent: bool,
+    pub in_percent: bool,
     pub digits: Option<Digits>,
 }
 
@@ -22,18 +22,18 @@ pub enum Printed {
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Numeral {
-    pub negative: bool,
+    pub is_negative: bool,
     /// Digits with at most one decimal point; long integers have narrow spaces between groups.
     pub digits: String,
     /// The standard error in units of the last digit, which is printed in brackets.
     pub error: Option<String>,
     pub exponent: Option<i32>,
-    pub percent: bool,
+    pub in_percent: bool,
 }
 
 /// Chooses the digits of a number, which is rounded once, from the decimal that it is meant to be.
 pub fn print(number: &Number, style: Style) -> Printed {
-    let power = if style.percent { 2 } else { 0 };
+    let power = if style.in_percent { 2 } else { 0 };
     let (negative, numeral) = match *number {
         Number::None => return Printed::Words("–".into()),
         Number::Text(ref words) => return Printed::Words(words.clone()),
@@ -45,7 +45,7 @@ pub fn print(number: &Number, style: Style) -> Printed {
             let integer = Decimal::integer(n);
             let numeral = match style.digits {
                 Some(Digits::Significant(n)) => numeral(integer.significant(n).times_ten(power)),
-                _ if style.percent => numeral(integer.times_ten(power)),
+                _ if style.in_percent => numeral(integer.times_ten(power)),
                 _ => of_digits(grouped(integer.written())),
             };
             (n < 0, numeral)
@@ -76,8 +76,8 @@ pub fn print(number: &Number, style: Style) -> Printed {
         }
     };
     // What rounds to zero has no sign.
-    let negative = negative && numeral.digits.contains(|c: char| ('1'..='9').contains(&c));
-    Printed::Number(Numeral { negative, percent: style.percent, ..numeral })
+    let is_negative = negative && numeral.digits.contains(|c: char| ('1'..='9').contains(&c));
+    Printed::Number(Numeral { is_negative, in_percent: style.in_percent, ..numeral })
 }
 
 impl Printed {
@@ -86,7 +86,7 @@ impl Printed {
         match self {
             Printed::Words(words) => format!(r"\text{{{words}}}"),
             Printed::Number(numeral) => {
-                let percent = if numeral.percent { r"\,\%" } else { "" };
+                let percent = if numeral.in_percent { r"\,\%" } else { "" };
                 let power = numeral.power_to_tex();
                 format!("{}{percent}", power.unwrap_or_else(|| numeral.digits_to_tex()))
             }
@@ -100,7 +100,7 @@ impl Printed {
             Printed::Number(numeral) => numeral,
         };
         let power = numeral.exponent.map(|e| format!("e{e}")).unwrap_or_default();
-        let percent = if numeral.percent { " %" } else { "" };
+        let percent = if numeral.in_percent { " %" } else { "" };
         format!("{}{power}{percent}", numeral.signed("-")).replace(NARROW_SPACE, "")
     }
 }
@@ -108,14 +108,14 @@ impl Printed {
 impl Numeral {
     /// Returns sign, digits and error, without the power of ten and the sign of per cent.
     pub fn signed(&self, minus: &str) -> String {
-        let minus = if self.negative { minus } else { "" };
+        let minus = if self.is_negative { minus } else { "" };
         let error = self.error.as_ref().map(|e| format!("({e})")).unwrap_or_default();
         format!("{minus}{}{error}", self.digits)
     }
 
     /// Returns whether only the power of ten is written: 10^−9 and not 1 × 10^−9.
     pub fn is_power_alone(&self) -> bool {
-        self.exponent.is_some() && self.digits == "1" && !self.negative && self.error.is_none()
+        self.exponent.is_some() && self.digits == "1" && !self.is_negative && self.error.is_none()
     }
 
     pub fn power_to_tex(&self) -> Option<String> {
@@ -242,7 +242,7 @@ mod tests {
     fn each_markup_has_its_minus_power_and_percent() {
         let big = print(&Number::Integer(1_234_567), Style::default());
         let number = with_error(0.9453, 0.0081).into();
-        let percent = print(&number, Style { percent: true, ..Style::default() });
+        let percent = print(&number, Style { in_percent: true, ..Style::default() });
         for (printed, [tex, plain]) in [
             (real(-3.25, 3), ["-3.25", "-3.25"]),
             (real(1.2e-5, 2), [r"1.2\times10^{-5}", "1.2e-5"]),
@@ -299,7 +299,7 @@ mod tests {
             (full(2.675), Some(Digits::Significant(3)), false, "2.68"),
             (full(9.995), Some(Digits::Significant(3)), false, "10.0"),
         ] {
-            assert_eq!(print(&number, Style { percent, digits }).to_plain_text(), text);
+            assert_eq!(print(&number, Style { in_percent: percent, digits }).to_plain_text(), text);
         }
     }
 }

@@ -210,6 +210,22 @@ impl Value {
         self
     }
 
+    /// Returns its number as a double, or `None` if it has no number.
+    pub fn as_f64(&self) -> Option<f64> {
+        match self.number {
+            Number::Integer(n) => Some(n as f64),
+            Number::Real { value, .. } => Some(value),
+            Number::None | Number::Text(_) => None,
+        }
+    }
+
+    /// Returns its number with the standard error, which is half of the interval, or `None` if it
+    /// has no number.
+    pub fn estimate(&self) -> Option<Estimate> {
+        let (value, error) = (self.as_f64()?, self.standard_error());
+        Some(Estimate { value, error, interval: [value - error, value + error] })
+    }
+
     /// Returns its standard error, which is zero if it has no error.
     pub fn standard_error(&self) -> f64 {
         match self.kind {

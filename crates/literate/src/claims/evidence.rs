@@ -6,7 +6,7 @@ use super::published::{Published, PublishedError, Statement};
 use super::text::Text;
 use crate::experiments::{self, Results};
 use crate::sample::Sampled;
-use crate::table::{self, Missing};
+use crate::table::Missing;
 use crate::text;
 use crate::value::{Digits, Number, Provenance};
 use impact_numerics::estimates::with_error;
@@ -68,7 +68,7 @@ impl Evidence<'_> {
     /// Returns the number with an address; without one the statement is undecided.
     #[track_caller]
     pub fn number(&self, address: &str) -> Result<f64, Error> {
-        table::number(self.results.cell(address)?).ok_or(Error::Undecided)
+        self.results.cell(address)?.as_f64().ok_or(Error::Undecided)
     }
 
     /// Returns several numbers of one row of a table, `theory.jump` or `theory.gap[sigma=0.2]`.
@@ -84,9 +84,7 @@ impl Evidence<'_> {
     /// Returns the number with an address and its standard error, which is half of the interval.
     #[track_caller]
     pub fn estimate(&self, address: &str) -> Result<Estimate, Error> {
-        let value = self.number(address)?;
-        let error = self.results.cell(address)?.standard_error();
-        Ok(Estimate { value, error, interval: [value - error, value + error] })
+        self.results.cell(address)?.estimate().ok_or(Error::Undecided)
     }
 
     /// Judges the number of a cell: it has to round to the printed one, with room for its error.

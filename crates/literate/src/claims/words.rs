@@ -97,23 +97,15 @@ impl Words {
         let mut filled_texts = [const { Text(Vec::new()) }; N];
         for (filled, key) in filled_texts.iter_mut().zip(keys) {
             let Some(sentence) = sentences.get(key) else { continue };
-            let mut pieces = sentence.split('{');
-            *filled = Text::from(pieces.next().unwrap_or_default());
-            for piece in pieces {
-                let (mark, words) = piece.split_once('}').unwrap_or((piece, ""));
-                let (name, digits) = mark.split_once(':').unwrap_or((mark, ""));
-                let number = numbers.iter().find(|(known, _)| *known == name);
-                let digits = if digits.is_empty() { Ok(None) } else { digits.parse().map(Some) };
-                let (Some((_, number)), Ok(digits)) = (number, digits) else {
-                    let problem = format!("has {{{mark}}} in {key}; write {{name}} or {{name:3}}");
-                    let names = if names.is_empty() { "none".into() } else { names.join(", ") };
-                    return Err(fault(&format!("{problem}, with a name of {names}")));
-                };
+            let number_of = |name: &str| {
                 unused.remove(name);
-                let digits = digits.map(|digits| number.clone().significant(digits));
-                let number = digits.unwrap_or_else(|| number.clone());
-                *filled = std::mem::take(filled).then(number).then(words);
-            }
+                numbers.iter().find(|(known, _)| *known == name).map(|(_, number)| number.clone())
+            };
+            *filled = Text::fill(sentence, number_of).map_err(|mark| {
+                let problem = format!("has {{{mark}}} in {key}; write {{name}} or {{name:3}}");
+                let names = if names.is_empty() { "none".into() } else { names.join(", ") };
+                fault(&format!("{problem}, with a name of {names}"))
+            })?;
         }
         match unused.first() {
             None => Ok(filled_texts),

@@ -10,7 +10,6 @@ use crate::report::folder::{self, SUMS};
 use crate::report::ledger::{self, Ledger};
 use crate::report::values::{self, Digits, Registry, Value};
 use crate::report::{Error, Files};
-use crate::table::number;
 use std::collections::BTreeSet;
 use std::path::Path;
 use std::process::Command;
@@ -188,7 +187,9 @@ fn change(id: &str, values: [Option<&Value>; 2]) -> (f64, String) {
     let [old, new] = values.map(|value| value.map(digits));
     let mut line = fate(id, [old.as_deref(), new.as_deref()]);
     let [Some(old), Some(new)] = values else { return (-1.0, line) };
-    let Some((before, after)) = number(old).zip(number(new)) else { return (f64::INFINITY, line) };
+    let Some((before, after)) = old.as_f64().zip(new.as_f64()) else {
+        return (f64::INFINITY, line);
+    };
     let difference = after - before;
     line += &format!("; Δ {}", signed(difference));
     // Runs with the same seed are correlated, and then this overestimates the error.

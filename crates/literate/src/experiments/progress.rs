@@ -21,16 +21,16 @@ pub(crate) fn stop() {
 
 #[derive(Clone, Copy, Debug)]
 pub struct Progress {
-    quiet: bool,
+    is_quiet: bool,
 }
 
 impl Progress {
     pub fn silent() -> Self {
-        Progress { quiet: true }
+        Progress { is_quiet: true }
     }
 
     pub fn on_stderr() -> Self {
-        Progress { quiet: QUIET.load(Ordering::Relaxed) }
+        Progress { is_quiet: QUIET.load(Ordering::Relaxed) }
     }
 
     /// Returns whether the work was asked to end. This costs one relaxed load.
@@ -47,12 +47,12 @@ impl Progress {
         let position = Arc::clone(&done);
         // At equal times, since the first unit may be a long one.
         let share = move || progress_text(position.load(Ordering::Relaxed), total, began.elapsed());
-        let lines = (!self.quiet).then(|| alive(move || format!("{name}: {}", share())));
+        let lines = (!self.is_quiet).then(|| alive(move || format!("{name}: {}", share())));
         Stage { done, _lines: lines }
     }
 
     pub fn say(&self, line: &str) {
-        if !self.quiet {
+        if !self.is_quiet {
             say(line);
         }
     }

@@ -180,7 +180,7 @@ pub fn to_inlines(printed: &Printed) -> Vec<Inline> {
         }
         Printed::Number(numeral) => numeral,
     };
-    let percent = if numeral.percent { "\u{a0}%" } else { "" };
+    let percent = if numeral.in_percent { "\u{a0}%" } else { "" };
     match numeral.power_to_tex() {
         Some(power) => vec![Inline::Maths(power.as_str().into()), Inline::Text(percent.into())],
         None => vec![Inline::Text(numeral.signed("−") + percent)],

@@ -21,7 +21,7 @@ struct Origin {
     start: usize,
     template: usize,
     offset: usize,
-    tag: bool,
+    is_tag: bool,
 }
 
 impl Filled {
@@ -33,7 +33,7 @@ impl Filled {
         let template = self.templates.len();
         self.templates.push((path.into(), text.into()));
         self.typed.push(typed::names(text));
-        let here = |start, offset, tag| Origin { start, template, offset, tag };
+        let here = |start, offset, is_tag| Origin { start, template, offset, is_tag };
         self.origins.push(here(self.text.len(), 0, false));
         for piece in pieces(filled) {
             match piece {
@@ -58,16 +58,16 @@ impl Filled {
     pub fn place(&self, offset: usize) -> Place {
         let origin = self.origin(offset);
         let (path, text) = &self.templates[origin.template];
-        let beyond = if origin.tag { 0 } else { offset - origin.start };
+        let beyond = if origin.is_tag { 0 } else { offset - origin.start };
         Place::in_text(path.clone(), text, (origin.offset + beyond).min(text.len()))
     }
 
     /// Returns whether people typed what stands at an offset, as text or within a tag.
     pub fn is_typed(&self, offset: usize) -> bool {
-        let Origin { template, offset, tag, .. } = self.origin(offset);
+        let Origin { template, offset, is_tag, .. } = self.origin(offset);
         let inside = self.templates[template].1[offset..].trim_start_matches('«');
         let inside = inside.split('»').next().unwrap_or_default();
-        !tag || typed::is_typed(inside, &self.typed[template])
+        !is_tag || typed::is_typed(inside, &self.typed[template])
     }
 }
 

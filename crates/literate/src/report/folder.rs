@@ -138,16 +138,16 @@ fn lock(folder: &Path) -> Option<File> {
 
 /// Refuses a folder that has no report, and names files that were edited: neither as listed, nor as
 /// `files` has them. For a whole report all listed files are checked.
-pub fn refuse(folder: &Path, files: &Files, whole: bool) -> Result<(), Error> {
+pub fn refuse(folder: &Path, files: &Files, is_whole: bool) -> Result<(), Error> {
     let _alone = lock(folder);
-    refuse_locked(folder, files, whole)
+    refuse_locked(folder, files, is_whole)
 }
 
-fn refuse_locked(folder: &Path, files: &Files, whole: bool) -> Result<(), Error> {
+fn refuse_locked(folder: &Path, files: &Files, is_whole: bool) -> Result<(), Error> {
     let place = || folder.display().to_string();
     let mut ours = listed_digests(folder)?.ok_or_else(|| Error::NotOurs(place()))?;
     ours.extend(read_list(folder, BUILT).unwrap_or_default());
-    let paths = ours.keys().filter(|_| whole).chain(files.keys());
+    let paths = ours.keys().filter(|_| is_whole).chain(files.keys());
     let paths = paths.filter(|path| ![SUMS, BUILT].contains(&path.as_str()));
     let is_edited = |path: &&String| match input::read_file(&folder.join(path)) {
         Ok(bytes) => files.get(*path) != Some(&bytes) && ours.get(*path) != Some(&sha256(&bytes)),
@@ -162,15 +162,16 @@ fn refuse_locked(folder: &Path, files: &Files, whole: bool) -> Result<(), Error>
 /// last. If the lists are among them they are a whole report, and files that only the old lists
 /// name are removed; else their lines are added to the old list. Unless forced, it refuses first.
 pub fn write(folder: &Path, files: &Files, force: bool) -> Result<(), Error> {
-    let whole = files.contains_key(SUMS);
+    let is_whole = files.contains_key(SUMS);
     std::fs::create_dir_all(folder).map_err(failed(folder))?;
     let _alone = lock(folder);
     if !force {
-        refuse_locked(folder, files, whole)?;
+        refuse_locked(folder, files, is_whole)?;
     }
     let (mut listed, built) =
         (listed_digests(folder)?.unwrap_or_default(), read_list(folder, BUILT));
-    let gone = |path: &&String| whole && !files.contains_key(*path) && folder.join(path).exists();
+    let gone =
+        |path: &&String| is_whole && !files.contains_key(*path) && folder.join(path).exists();
     let old = listed.keys().chain(built.iter().flat_map(BTreeMap::keys));
     let gone: Vec<String> = old.filter(gone).cloned().collect();
 
@@ -185,7 +186,7 @@ pub fn write(folder: &Path, files: &Files, force: bool) -> Result<(), Error> {
         above.and_then(|()| action(&place)).map_err(failed(&folder.join(path)))
     };
     let mut to_write = files.clone();
-    if !whole {
+    if !is_whole {
         listed.extend(digest_files(files.iter()));
         to_write.insert(SUMS.into(), to_list(&listed).into_bytes());
     }

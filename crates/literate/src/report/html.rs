@@ -371,7 +371,7 @@ fn number_to_html(numeral: &Numeral, blank: char) -> String {
         let minus = if exponent < 0 { "−" } else { "" };
         let _ = write!(html, "{times}10<sup>{minus}{}</sup>", exponent.unsigned_abs());
     }
-    if numeral.percent {
+    if numeral.in_percent {
         html.extend([blank, '%']);
     }
     html

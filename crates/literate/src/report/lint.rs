@@ -198,13 +198,14 @@ pub fn conflict_beside(
         let problem = "reads as one number with what stands beside it; put a blank between";
         return Some(format!("«{}» {problem}", value.id));
     }
-    let own = if style.percent { "%" } else { &value.unit.trim_matches('$').replace('μ', "µ") };
-    if style.percent && !value.unit.is_empty() {
+    let own =
+        if style.in_percent { "%" } else { &value.unit.trim_matches('$').replace('μ', "µ") };
+    if style.in_percent && !value.unit.is_empty() {
         let problem = "which `percent` would change; write it without";
         return Some(format!("«{}» has the unit {}, {problem}", value.id, value.unit));
     }
     if let Some(typed_unit) = typed_unit
-        && (style.percent || own != typed_unit && (!own.is_empty() || typed_unit == "%"))
+        && (style.in_percent || own != typed_unit && (!own.is_empty() || typed_unit == "%"))
     {
         let problem = "write it by the value's own unit or by «… | percent»";
         return Some(format!(
@@ -352,7 +353,7 @@ mod tests {
             }
         }
         let value = Value { unit: "ms".into(), ..Value::real("x", 0.5, 1) };
-        let percent = Style { percent: true, ..Style::default() };
+        let percent = Style { in_percent: true, ..Style::default() };
         let problem = conflict_beside("", "", &value, percent, false).unwrap();
         assert!(problem.contains("which `percent` would change"), "{problem}");
         let of_maths = |before, after| {

@@ -76,7 +76,7 @@ pub fn parse_filters(words: &str) -> Style {
     for word in words.split_whitespace() {
         match word.strip_prefix("significant") {
             Some(digits) => style.digits = digits.parse().ok().map(Digits::Significant),
-            None => style.percent |= word == "percent",
+            None => style.in_percent |= word == "percent",
         }
     }
     style

@@ -1,7 +1,7 @@
 //! Finds tables and cells by their names.
 
 use super::missing::{Missing, NO_NUMBER, no_such};
-use super::rows::{Table, number};
+use super::rows::Table;
 use crate::value::Value;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -22,7 +22,7 @@ pub fn find_table<'a>(tables: &'a Tables, name: &str) -> Result<&'a Table, Missi
 
 #[track_caller]
 pub fn find_number(tables: &Tables, address: &str) -> Result<f64, Missing> {
-    match number(find_cell(tables, address)?) {
+    match find_cell(tables, address)?.as_f64() {
         Some(number) => Ok(number),
         None => Err(Missing::new(address, NO_NUMBER)),
     }

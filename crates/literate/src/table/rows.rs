@@ -99,7 +99,7 @@ impl Table {
             let problem = format!("{} rows have these keys; give more of them", rows.len());
             return Err(Missing::new(self.name, problem));
         };
-        match number(&row[index]) {
+        match row[index].as_f64() {
             Some(number) => Ok(number),
             None => Err(Missing::new(&row[index].id, NO_NUMBER)),
         }
@@ -123,22 +123,15 @@ impl Table {
         y: &str,
     ) -> Result<Vec<(f64, Estimate)>, Missing> {
         let (x, y) = (self.column(x)?, self.column(y)?);
-        let mut series = Vec::new();
-        for cells in self.select(keys)? {
-            if let Some((x, value)) = number(&cells[x]).zip(number(&cells[y])) {
-                let error = cells[y].standard_error();
-                let interval = [value - error, value + error];
-                series.push((x, Estimate { value, error, interval }));
-            }
-        }
-        Ok(series)
+        let rows = self.select(keys)?.into_iter();
+        Ok(rows.filter_map(|cells| cells[x].as_f64().zip(cells[y].estimate())).collect())
     }
 
     /// Returns the numbers of a column without repetitions, in the order of the rows.
     #[track_caller]
     pub fn distinct(&self, column: &str) -> Result<Vec<f64>, Missing> {
         let index = self.column(column)?;
-        Ok(without_repeats(self.rows.iter().filter_map(|(_, cells)| number(&cells[index]))))
+        Ok(without_repeats(self.rows.iter().filter_map(|(_, cells)| cells[index].as_f64())))
     }
 
     /// Returns the values of a key as addresses write them, without repetitions, in the order of
@@ -163,7 +156,7 @@ impl Table {
         let mut table = self.clone();
         for (_, cells) in &mut table.rows {
             let cell = &mut cells[column];
-            let Some(value) = number(cell) else { continue };
+            let Some(value) = cell.as_f64() else { continue };
             cell.number = match (change(value, cell.standard_error()), &cell.number) {
                 (None, _) => Number::None,
                 (Some(value), Number::Real { digits, .. }) => {
@@ -257,15 +250,7 @@ pub(super) fn key_to_text(key: &Number) -> String {
 fn is_number(cell: &Value, wanted: f64) -> bool {
     match cell.number {
         Number::Integer(n) => n as f64 == wanted && wanted as i128 == n,
-        _ => number(cell) == Some(wanted),
-    }
-}
-
-pub fn number(cell: &Value) -> Option<f64> {
-    match cell.number {
-        Number::Integer(n) => Some(n as f64),
-        Number::Real { value, .. } => Some(value),
-        Number::None | Number::Text(_) => None,
+        _ => cell.as_f64() == Some(wanted),
     }
 }
 

@@ -45,7 +45,7 @@ fn binds(mut before: &str, mut after: &str, printed: &Printed) -> bool {
     let digit = |sign: &&str| sign.starts_with(|c: char| c.is_ascii_digit());
     let is_degrees = after.iter().find(|sign| !["^", "{"].contains(sign)) == Some(&r"\circ");
     let raises = after.first().is_some_and(|sign| "^_'!".contains(sign)) && !is_degrees;
-    let has_more = numeral.exponent.is_some() || numeral.error.is_some() || numeral.percent;
+    let has_more = numeral.exponent.is_some() || numeral.error.is_some() || numeral.in_percent;
     let (last, rest) = before_signs.split_last().unwrap_or((&"", &[]));
     // The digits of `x^2` and `\frac12` are no factors.
     let mut ahead = rest.iter().rev().take(2);
@@ -62,9 +62,9 @@ fn binds(mut before: &str, mut after: &str, printed: &Printed) -> bool {
     let is_end = *last == "|" && before_signs.iter().filter(|sign| **sign == "|").count() % 2 == 0;
     let binds_sign =
         !is_text && (is_letter || is_in(BEFORE) || is_in(FUNCTIONS) || is_end || digit(last));
-    raises && (numeral.negative || has_more)
+    raises && (numeral.is_negative || has_more)
         || joins
-        || numeral.negative && binds_sign
+        || numeral.is_negative && binds_sign
         || (*last == "/" || is_in(FUNCTIONS))
             && numeral.exponent.is_some()
             && !numeral.is_power_alone()

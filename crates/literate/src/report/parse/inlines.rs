@@ -55,7 +55,7 @@ impl Reader<'_> {
                 self.hard_coded(numbers.into_iter().filter(is_digits));
                 Inline::Code(self.to_plain_text(&code)?)
             }
-            Event::InlineMath(_) if self.hides > 0 => {
+            Event::InlineMath(_) if self.depth_without_formulas > 0 => {
                 return Err(fault("GitHub renders no formula in emphasis or a link; move it out"));
             }
             Event::InlineMath(_) if self.filled.text[..range.start].ends_with(touches) => {
@@ -143,9 +143,9 @@ impl Reader<'_> {
             return Err(fault("a link has no title, which print cannot show; write it in words"));
         }
         let hides = matches!(tag, Tag::Emphasis | Tag::Link { .. });
-        self.hides += usize::from(hides);
+        self.depth_without_formulas += usize::from(hides);
         let words = self.inlines_in_line()?;
-        self.hides -= usize::from(hides);
+        self.depth_without_formulas -= usize::from(hides);
         self.events.next();
         Ok(match tag {
             Tag::Emphasis => Inline::Emphasis(words),
@@ -207,9 +207,9 @@ impl Reader<'_> {
             return self.text(after, cut.end..part.end, inlines);
         }
         if let Some((offset, problem)) = leftover(source, part.start, text)
-            && offset >= self.quiet
+            && offset >= self.quiet_until
         {
-            self.quiet = offset + source[offset..].find("\n\n").unwrap_or(source.len());
+            self.quiet_until = offset + source[offset..].find("\n\n").unwrap_or(source.len());
             let problem = if self.filled.is_typed(offset) { problem } else { GROUP };
             return Err(fault(problem).at(self.filled.place(offset)));
         }
@@ -306,7 +306,7 @@ impl Reader<'_> {
         let unknown = || Error::Template(format!("there is no value {id}"));
         let value = self.values.get(id).ok_or_else(unknown)?;
         // The samples of a quick profile may be too small for any number.
-        let is_dash = self.in_cell || self.values.profile() == Some(Profile::Quick);
+        let is_dash = self.is_in_cell || self.values.profile() == Some(Profile::Quick);
         if value.number == Number::None && !is_dash {
             return Err(Error::NoNumber(id.into()));
         }

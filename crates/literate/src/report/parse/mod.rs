@@ -60,16 +60,16 @@ pub fn parse<'a>(
         declared,
         sources,
         id_at: 0..0,
-        quiet: 0,
-        within: 0,
-        hides: 0,
-        titled: false,
-        in_cell: false,
+        quiet_until: 0,
+        depth: 0,
+        depth_without_formulas: 0,
+        has_title: false,
+        is_in_cell: false,
         places: Places::new(filled),
-        found: Vec::new(),
+        errors: Vec::new(),
     };
     let blocks = reader.blocks().unwrap_or_default();
-    Parsed { blocks, places: reader.places, errors: reader.found }
+    Parsed { blocks, places: reader.places, errors: reader.errors }
 }
 
 fn fault(problem: impl Into<String>) -> Error {
@@ -85,16 +85,16 @@ struct Reader<'a> {
     /// Where an id begins and ends that is no text: behind a caption, a picture or an equation.
     id_at: Range<usize>,
     /// Where a formula ends that Markdown has cut; only its first error is reported.
-    quiet: usize,
+    quiet_until: usize,
     /// Number of lists and quotations around what is being read.
-    within: usize,
+    depth: usize,
     /// Emphasis and links around it, in which GitHub renders no formula.
-    hides: usize,
-    titled: bool,
+    depth_without_formulas: usize,
+    has_title: bool,
     /// Whether it is a cell of a table, where a dash stands for no number.
-    in_cell: bool,
+    is_in_cell: bool,
     places: Places<'a>,
-    found: Vec<Error>,
+    errors: Vec<Error>,
 }
 
 /// How a caption begins, as `Table: words {#tab:id}`, and the kind of its id.
@@ -112,7 +112,7 @@ impl<'a> Reader<'a> {
     }
 
     fn note_error(&mut self, at: usize, error: Error) {
-        self.found.push(error.at(self.filled.place(at)));
+        self.errors.push(error.at(self.filled.place(at)));
     }
 
     fn id(&mut self, kind: &str, id: &str, at: usize) -> Result<(), Error> {
@@ -123,7 +123,7 @@ impl<'a> Reader<'a> {
     /// Reads blocks up to the end of what contains them. After an error reading goes on with the
     /// next block, except in lists and quotations.
     fn blocks(&mut self) -> Result<Vec<Block>, Error> {
-        let (mut blocks, within) = (Vec::new(), self.within > 0);
+        let (mut blocks, within) = (Vec::new(), self.depth > 0);
         while let Some((event, Range { start, end })) = self.events.peek().cloned() {
             if matches!(event, Event::End(_)) {
                 break;
@@ -133,8 +133,8 @@ impl<'a> Reader<'a> {
                 Ok(block) => blocks.push(block),
                 Err(error) if within => return Err(error),
                 Err(error) => {
-                    self.found.push(error);
-                    (self.within, self.hides) = (0, 0);
+                    self.errors.push(error);
+                    (self.depth, self.depth_without_formulas) = (0, 0);
                     while self.events.next_if(|(_, range)| range.start < end).is_some() {}
                 }
             }
@@ -143,9 +143,9 @@ impl<'a> Reader<'a> {
     }
 
     fn inner(&mut self) -> Result<Vec<Block>, Error> {
-        self.within += 1;
+        self.depth += 1;
         let blocks = self.blocks()?;
-        self.within -= 1;
+        self.depth -= 1;
         Ok(blocks)
     }
 
@@ -172,7 +172,7 @@ impl<'a> Reader<'a> {
                 }
                 let id = id.map(|id| id.to_string());
                 id.iter().try_for_each(|id| self.id("sec", id, range.start))?;
-                if level > 3 || level == 1 && std::mem::replace(&mut self.titled, true) {
+                if level > 3 || level == 1 && std::mem::replace(&mut self.has_title, true) {
                     return Err(fault("a document has one title (#) and sections with ## and ###"));
                 }
                 let text = self.inlines_in_line()?;
@@ -335,9 +335,9 @@ impl<'a> Reader<'a> {
             }
             let mut cells = Vec::new();
             while self.begins(|tag| *tag == Tag::TableCell).is_some() {
-                self.in_cell = true;
+                self.is_in_cell = true;
                 cells.push(self.inlines_in_line()?);
-                self.in_cell = false;
+                self.is_in_cell = false;
                 self.events.next();
             }
             self.events.next();
