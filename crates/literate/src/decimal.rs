@@ -89,11 +89,8 @@ impl Decimal {
         let digits = digits.clamp(1, MAX_DIGITS) as i32;
         let rounded = self.rounded(digits - 1 - self.exponent());
         // 9.96 rounds to 10.0, which has a digit more.
-        if rounded.digits.len() as i32 > digits {
-            rounded.rounded(rounded.places - 1)
-        } else {
-            rounded
-        }
+        let is_longer = rounded.digits.len() as i32 > digits;
+        if is_longer { rounded.rounded(rounded.places - 1) } else { rounded }
     }
 
     pub fn written(&self) -> String {

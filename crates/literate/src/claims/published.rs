@@ -165,7 +165,7 @@ impl Statement {
         // As a number, per cent or per mille.
         let as_printed = |shift| written(value * power_of_ten(shift), (decimals - shift).max(0));
         if value.fract() != 0.0
-            && ![0, 2, 3].map(as_printed).iter().any(|as_printed| self.printed.contains(as_printed))
+            && ![0, 2, 3].map(as_printed).iter().any(|form| self.printed.contains(form))
         {
             return Err("value does not stand in printed; write both as they were printed");
         }

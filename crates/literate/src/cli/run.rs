@@ -59,22 +59,19 @@ const MOST: usize = 100_000;
 /// Runs each N-th unit that is not in the store. Returns the numbers of those run and those there.
 fn run_shard(
     experiments: &[&'static dyn AnyExperiment],
-    (shard, shards_in_all): (usize, usize),
+    (shard, shards): (usize, usize),
     session: &Session<'_>,
 ) -> Result<[usize; 2], Error> {
-    let mut shards = (1..=shards_in_all).cycle();
-    let (mut shares, mut units_to_run) = (Vec::new(), Vec::new());
+    let mut turns = (1..=shards).cycle();
+    let (mut shares, mut open) = (Vec::new(), Vec::new());
     for experiment in experiments {
         let mut units = experiment.units(session.profile);
-        units.retain(|_| shards.next() == Some(shard));
+        units.retain(|_| turns.next() == Some(shard));
         let identity = experiment.identity(session)?;
-        units_to_run.extend(experiment.units_to_run(units.clone(), &identity, &session.store));
+        open.extend(experiment.units_to_run(units.clone(), &identity, &session.store));
         shares.push((experiment, units, identity));
     }
-    session.announce(
-        &format!("shard {shard}/{shards_in_all}: {}", count(units_to_run.len(), "unit")),
-        &units_to_run,
-    )?;
+    session.announce(&format!("shard {shard}/{shards}: {}", count(open.len(), "unit")), &open)?;
     let [mut run, mut total] = [0, 0];
     for (experiment, units, identity) in shares.iter().filter(|(_, units, _)| !units.is_empty()) {
         session.progress.check()?;

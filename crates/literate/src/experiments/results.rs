@@ -107,15 +107,14 @@ impl Results {
     }
 
     /// Returns these tables and those that need several experiments, by name.
-    fn joined(&self, mut tables_so_far: Vec<Table>) -> Result<Tables, String> {
+    fn joined(&self, mut made: Vec<Table>) -> Result<Tables, String> {
         let experiments: Vec<&str> = self.results.iter().map(|(one, _)| one.name()).collect();
         for tables in &self.derived {
-            let derived = tables(self, &tables_so_far).into_iter().flatten();
-            tables_so_far
-                .extend(derived.map(|table| table.made_by(&experiments)).collect::<Vec<_>>());
+            let derived = tables(self, &made).into_iter().flatten();
+            made.extend(derived.map(|table| table.made_by(&experiments)).collect::<Vec<_>>());
         }
         let (mut tables, mut names) = (Tables::new(), Names::default());
-        for table in tables_so_far {
+        for table in made {
             if let Some(fault) = table.fault() {
                 return Err(fault.into());
             }
@@ -164,8 +163,7 @@ impl Results {
         derived: &[DerivedTables],
         session: &Session<'_>,
     ) -> Result<Self, Error> {
-        let identities =
-            experiments.par_iter().with_max_len(1).map(|experiment| experiment.identity(session));
+        let identities = experiments.par_iter().with_max_len(1).map(|one| one.identity(session));
         let identities: Vec<Identity> = identities.collect::<Result<_, Error>>()?;
         let identified = experiments.par_iter().zip(&identities).with_max_len(1);
         let saved = identified.map(|(experiment, identity)| {
@@ -185,7 +183,7 @@ impl Results {
             units_to_run.extend(units);
         }
         session.announce(&count(stale, "experiment"), &units_to_run)?;
-        let (mut finished, mut tables_of_all) = (Vec::new(), Vec::new());
+        let (mut finished, mut tables_made) = (Vec::new(), Vec::new());
         for ((experiment, identity), saved) in experiments.iter().zip(&identities).zip(saved) {
             if experiment.is_saved() {
                 let state = saved.as_ref().err().map_or("fresh", String::as_str);
@@ -194,13 +192,13 @@ impl Results {
             let run = |_| made(*experiment, || experiment.read_or_run(identity, session));
             let (result, tables) = saved.or_else(run)?;
             finished.push((*experiment, result));
-            tables_of_all.extend(tables);
+            tables_made.extend(tables);
         }
         session.progress.check()?;
         let (profile, derived) = (session.profile, derived.to_vec());
         let (tables, read) = (OnceLock::new(), Mutex::default());
         let results = Results { profile, results: finished, derived, tables, read };
-        let tables = OnceLock::from(results.joined(tables_of_all));
+        let tables = OnceLock::from(results.joined(tables_made));
         Ok(Results { tables, ..results })
     }
 }

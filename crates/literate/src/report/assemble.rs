@@ -103,7 +103,7 @@ fn all_in_order(errors: Vec<Error>) -> Result<(), Error> {
     let mut errors: Vec<Error> = errors.into_iter().flat_map(Error::into_list).collect();
     errors.sort_by(|a, b| a.place().cmp(&b.place()));
     errors.dedup_by_key(|error| error.to_string());
-    Error::fail_if_any(errors)
+    Error::check(errors)
 }
 
 /// Reads all documents into trees, with their figures, numbers and references. Returns all errors.
@@ -117,8 +117,7 @@ fn parts<'a>(
         let placed = |error: Error| Error::Template(input.templates.place(&error.to_string()));
         Error::Several(error.into_list().into_iter().map(placed).collect())
     })?;
-    let (mut labels, mut figures_with_place, mut errors) =
-        (Labels::default(), BTreeSet::new(), Vec::new());
+    let (mut labels, mut placed, mut errors) = (Labels::default(), BTreeSet::new(), Vec::new());
     let mut parts: Vec<Part<'_>> = Vec::new();
     let parsed = |filled| parse::parse(filled, values, declared, &input.project.sources);
     let parsed = filled.par_iter().with_max_len(1).map(parsed).collect::<Vec<_>>();
@@ -136,14 +135,13 @@ fn parts<'a>(
         let numbered = labels.number_all(&mut blocks, *document);
         errors.extend(numbered.err().map(|error| places.locate(error)));
         if !document.repeats {
-            figures_with_place.extend(figures);
+            placed.extend(figures);
         }
         parts.push(Part { document: *document, blocks, places });
     }
     // What a block with an error shows or names is not known.
     if !is_broken {
-        let figures =
-            input.figures.iter().filter(|figure| !figures_with_place.contains(&figure.id));
+        let figures = input.figures.iter().filter(|figure| !placed.contains(&figure.id));
         errors.extend(figures.map(|figure| Error::NotShown(figure.id.clone())));
         for EquationEntry { number, .. } in &input.edition.equations {
             if labels.get(&format!("eq:{number}")).is_none() {

@@ -29,7 +29,7 @@ impl Library {
         let (mut references, mut errors) = (Vec::new(), Vec::new());
         let parents = bibtex::parents(&entries);
         for entry in entries.iter() {
-            let completed = bibtex::with_inherited_fields(entry, &entries, &[]);
+            let completed = bibtex::completed(entry, &entries, &[]);
             let is_parent = completed.is_ok() && parents.contains(&entry.key);
             match completed.and_then(|completed| reference(&completed, entry)) {
                 Ok(reference) => references.push(reference),
@@ -37,7 +37,7 @@ impl Library {
                 Err(problem) => errors.push(fault(format!(" {} {problem}", entry.key))),
             }
         }
-        Error::fail_if_any(errors)?;
+        Error::check(errors)?;
         references
             .sort_by_cached_key(|reference| sort_key(&to_plain_text(&reference.to_inlines())));
         Ok(Library(references))

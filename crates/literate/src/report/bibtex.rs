@@ -97,11 +97,7 @@ pub fn parents(entries: &Bibliography) -> Vec<String> {
 
 /// Returns an entry with what it lacks from its parents, itself one of those that lie below it. The
 /// error is a message that follows its key.
-pub fn with_inherited_fields(
-    entry: &Entry,
-    entries: &Bibliography,
-    below: &[&str],
-) -> Result<Entry, String> {
+pub fn completed(entry: &Entry, entries: &Bibliography, below: &[&str]) -> Result<Entry, String> {
     let (mut complete, keys_below) = (entry.clone(), [below, &[&entry.key]].concat());
     for field in PARENTS {
         for key in parent_keys(entry, field) {
@@ -113,7 +109,7 @@ pub fn with_inherited_fields(
                 return Err(format!("{link}, which makes a circle, {circle}; end it"));
             }
             let own: Vec<String> = complete.fields.keys().cloned().collect();
-            for (mut name, value) in with_inherited_fields(parent, entries, &keys_below)?.fields {
+            for (mut name, value) in completed(parent, entries, &keys_below)?.fields {
                 // The title of a book is the booktitle of a chapter.
                 let before = match (&entry.entry_type, &parent.entry_type) {
                     (InBook | InCollection | InProceedings, Book | Collection | Proceedings) => {

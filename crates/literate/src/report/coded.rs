@@ -27,7 +27,7 @@ pub fn check(input: &Input<'_>, declared: &Declared) -> Vec<Error> {
     let code = code.map(|(path, text)| (path.to_string(), *text));
     let mut numbered = Vec::new();
     for (text, file, with_words) in given(input) {
-        let mut numerals = lint::numbers_in_words(&text, 0..text.len(), declared);
+        let mut numerals = lint::find_numbers(&text, 0..text.len(), declared);
         let is_meant = |numeral: &str| with_words || numeral.starts_with(char::is_numeric);
         numerals.retain(|(at, one)| is_meant(one) && is_number(&text, *at, one));
         if !numerals.is_empty() {
@@ -67,7 +67,7 @@ fn typed(path: &str, code: &str, wanted: &HashSet<&str>) -> Vec<Typed> {
         };
         if words.any(|word| wanted.contains(word) || in_digits(word)) {
             let text = piece.replace(r"\\", r"\");
-            let numerals = lint::numbers_in_words(&text, 0..text.len(), &Declared::default());
+            let numerals = lint::find_numbers(&text, 0..text.len(), &Declared::default());
             let numerals = numerals.into_iter().map(|(_, numeral)| numeral).collect();
             let (place, words) = (format!("{path}:{line}"), bare(&text.replace('\\', "")));
             found.push(Typed { place, words, numerals });

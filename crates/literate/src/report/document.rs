@@ -197,7 +197,7 @@ pub fn has_formulas(words: &str) -> bool {
         let opens = before.ends_with([' ', '(', '[', '“']) || before.is_empty() && index == 1;
         let closes =
             !tex.is_empty() && tex.trim() == tex && !after.starts_with(char::is_alphanumeric);
-        opens && closes && tex::find_unsupported(tex).is_none()
+        opens && closes && tex::unsupported(tex).is_none()
     };
     parts.len() % 2 == 1 && parts.len() > 1 && (1..parts.len()).step_by(2).all(is_formula)
 }

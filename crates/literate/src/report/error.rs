@@ -103,7 +103,7 @@ impl Error {
         if let Error::At { place, .. } = self { Some(place) } else { None }
     }
 
-    pub(crate) fn fail_if_any(errors: Vec<Error>) -> Result<(), Error> {
+    pub(crate) fn check(errors: Vec<Error>) -> Result<(), Error> {
         if errors.is_empty() { Ok(()) } else { Err(Error::Several(errors)) }
     }
 

@@ -43,7 +43,7 @@ pub fn write(
             // What is shown again has its place elsewhere.
             Block::Figure { id, number, name, .. } if !here.repeats => {
                 let name =
-                    input.figure(name).map_or(String::new(), |figure| escape_words(&figure.title));
+                    input.figure(name).map_or(String::new(), |figure| escaped(&figure.title));
                 figures.push([place_on_page(id), number.clone(), name]);
             }
             _ => (),
@@ -52,7 +52,7 @@ pub fn write(
     let year = edition.date.split('-').next().unwrap_or_default();
     let key = format!("{}{year}{}", sources.name, here.prose);
     let key: String = key.chars().filter(char::is_ascii_alphanumeric).collect();
-    let documents = edition.documents.iter().map(|of| (of.page, escape_words(of.name)));
+    let documents = edition.documents.iter().map(|of| (of.page, escaped(of.name)));
     // Its first words, for those who have only a link to it.
     let description = blocks.iter().find_map(|block| match block {
         Block::Paragraph(text) => Some(to_spelt_text(text)),
@@ -65,28 +65,28 @@ pub fn write(
     let parts = json!({
         "file": here.page,
         "markdown": here.markdown,
-        "name": escape_words(sources.name),
-        "version": escape_words(sources.version),
-        "license": escape_words(edition.license),
-        "description": escape_words(&description.unwrap_or_default()),
+        "name": escaped(sources.name),
+        "version": escaped(sources.version),
+        "license": escaped(edition.license),
+        "description": escaped(&description.unwrap_or_default()),
         "picture": edition.cover,
         "links": edition.links.iter().map(link).collect::<Vec<_>>(),
-        "date": escape_words(edition.date),
-        "authors": edition.authors.iter().map(|(name, _)| escape_words(name)).collect::<Vec<_>>(),
+        "date": escaped(edition.date),
+        "authors": edition.authors.iter().map(|(name, _)| escaped(name)).collect::<Vec<_>>(),
         "documents": documents.collect::<Vec<_>>(),
-        "title": escape_words(&to_spelt_text(title)),
+        "title": escaped(&to_spelt_text(title)),
         "key": key,
-        "address": escape_words(edition.address),
-        "doi": escape_words(edition.doi),
-        "bibtex": [escape_words(&edition.bibtex_authors()), escape_words(&latex::inlines(title))],
+        "address": escaped(edition.address),
+        "doi": escaped(edition.doi),
+        "bibtex": [escaped(&edition.bibtex_authors()), escaped(&latex::inlines(title))],
         "heading": heading,
-        "byline": escape_words(&edition.byline(here)),
+        "byline": escaped(&edition.byline(here)),
         "sections": sections,
         "figures": figures,
         "body": body,
         "glyphs": outlines(&page.glyphs.borrow()),
     });
-    Error::fail_if_any(page.errors.into_inner())?;
+    Error::check(page.errors.into_inner())?;
     Ok((parts, page.values.into_inner()))
 }
 
@@ -243,7 +243,7 @@ impl<'a> Page<'a> {
                     let (rest, opening) = rest.split_at(rest.trim_end_matches(OPENING).len());
                     let parts = [(closing, true), (rest, false), (opening, false)];
                     let parts = parts.into_iter().filter(|(words, _)| !words.is_empty());
-                    pieces.extend(parts.map(|(words, stays)| (escape_words(words), stays)));
+                    pieces.extend(parts.map(|(words, stays)| (escaped(words), stays)));
                 }
                 piece => {
                     let last = pieces.last().map_or("", |(html, _)| html);
@@ -270,11 +270,11 @@ impl<'a> Page<'a> {
 
     fn inline(&self, inline: &Inline) -> String {
         match inline {
-            Inline::Text(words) => escape_words(words),
+            Inline::Text(words) => escaped(words),
             Inline::Soft => "\n".into(),
             // Long paths may break at their joints.
             Inline::Code(code) => {
-                let code = escape_words(code).replace('/', "/\0").replace("::", "::\0");
+                let code = escaped(code).replace('/', "/\0").replace("::", "::\0");
                 let code = code.replace(',', ",\0").replace('[', "\0[");
                 format!("<code>{}</code>", code.replace('\0', "<wbr/>"))
             }
@@ -325,16 +325,12 @@ impl<'a> Page<'a> {
                     let card = card.unwrap_or_default();
                     format!(" class=\"verdict {name}\" title=\"{words}\"{card}")
                 });
-                format!(
-                    "<a href=\"{file}#{}\"{class}>{}</a>",
-                    place_on_page(to),
-                    escape_words(label)
-                )
+                format!("<a href=\"{file}#{}\"{class}>{}</a>", place_on_page(to), escaped(label))
             }
             Inline::Anchor { id, number } => {
                 format!("<span id=\"{}\">{number}</span>", place_on_page(id))
             }
-            Inline::Unresolved { ids, .. } => escape_words(&ids.join("; ")),
+            Inline::Unresolved { ids, .. } => escaped(&ids.join("; ")),
         }
     }
 
@@ -383,11 +379,11 @@ fn scrollable(name: &str, inner: &str) -> String {
 }
 
 fn code_to_html(code: &str) -> String {
-    format!("<pre><code>{}</code></pre>\n", escape_words(code.trim_end()))
+    format!("<pre><code>{}</code></pre>\n", escaped(code.trim_end()))
 }
 
 /// Escapes words; a number and its sign of per cent stay on one line.
-fn escape_words(words: &str) -> String {
+fn escaped(words: &str) -> String {
     escape(words).replace(" %", "\u{a0}%")
 }
 

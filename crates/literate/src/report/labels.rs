@@ -47,7 +47,7 @@ impl Labels {
     /// Refuses keys of references that have one place in the list.
     pub fn add_keys<'a>(&mut self, keys: impl Iterator<Item = &'a str>) -> Result<(), Error> {
         let place = |key| place_on_page(&format!("ref:{key}"));
-        Error::fail_if_any(
+        Error::check(
             keys.filter_map(|key| self.take_place(key, place(key), "references")).collect(),
         )
     }
@@ -140,7 +140,7 @@ impl Labels {
             }
             _ => (),
         });
-        Error::fail_if_any(errors)
+        Error::check(errors)
     }
 
     /// Takes the signs of verdicts for `row:`, `mark:` and `sign:`; refuses a place of a statement
@@ -155,7 +155,7 @@ impl Labels {
                 errors.push(Error::unknown(Thing::Id(format!("claim:{id}")), problem, ids));
             }
         }
-        Error::fail_if_any(errors)
+        Error::check(errors)
     }
 
     /// Resolves all references of a document, and fills its list of references with what it cites.
@@ -207,7 +207,7 @@ impl Labels {
                 (Thing::Reference(first.key.clone()), format!("[@{}]: {problem}", first.key));
             errors.push(Error::Named { thing, problem });
         }
-        Error::fail_if_any(errors)
+        Error::check(errors)
     }
 
     fn resolve_ids(&self, ids: &[String], here: Document) -> Result<Vec<Inline>, Error> {

@@ -22,9 +22,7 @@ pub fn write(blocks: &[Block], document: Document, edition: &Edition) -> Result<
         "body": body(blocks),
         "listings": listings(blocks),
     });
-    Error::fail_if_any(
-        tex::unknown_characters(&print.to_string()).into_iter().map(Error::NoLatex).collect(),
-    )?;
+    Error::check(tex::unknown(&print.to_string()).into_iter().map(Error::NoLatex).collect())?;
     Ok(print)
 }
 

@@ -68,11 +68,7 @@ fn is_number_word(word: &str) -> bool {
 }
 
 /// Returns the hard-coded numbers in a part of a text, with their offsets; marks are skipped.
-pub fn numbers_in_words(
-    text: &str,
-    part: Range<usize>,
-    declared: &Declared,
-) -> Vec<(usize, String)> {
+pub fn find_numbers(text: &str, part: Range<usize>, declared: &Declared) -> Vec<(usize, String)> {
     let is_word = |c: char| c.is_alphanumeric() || c == '_';
     let (mut numbers, mut offset) = (Vec::new(), part.start);
     // The rest of a word that began before this part was checked there.
@@ -161,7 +157,7 @@ fn is_word_end(c: char) -> bool {
 
 /// Describes what stands beside a value and changes its unit or its sign, or returns `None` if
 /// nothing does; formulas have units in `\mathrm`.
-pub fn conflict_beside(
+pub fn conflict(
     before: &str,
     after: &str,
     value: &Value,
@@ -185,7 +181,7 @@ pub fn conflict_beside(
         [r"\mathrm{", r"\text{"].iter().find_map(|open| rest.strip_prefix(open)).unwrap_or(apart);
     let touches = rest.trim_start_matches('\\').starts_with(['%', '‰', '°']);
     let rest = if touches { rest.trim_start_matches('\\') } else { apart.trim_start_matches(' ') };
-    let typed_unit = unit(rest).filter(|_| touches || maths || rest.len() < after.len());
+    let typed = unit(rest).filter(|_| touches || maths || rest.len() < after.len());
     let glued = ["", ".", ",", "e"].iter().filter_map(|sign| after.strip_prefix(sign));
     let digit = |c: char| c.is_ascii_digit();
     let is_after =
@@ -204,14 +200,11 @@ pub fn conflict_beside(
         let problem = "which `percent` would change; write it without";
         return Some(format!("«{}» has the unit {}, {problem}", value.id, value.unit));
     }
-    if let Some(typed_unit) = typed_unit
-        && (style.in_percent || own != typed_unit && (!own.is_empty() || typed_unit == "%"))
+    if let Some(typed) = typed
+        && (style.in_percent || own != typed && (!own.is_empty() || typed == "%"))
     {
         let problem = "write it by the value's own unit or by «… | percent»";
-        return Some(format!(
-            "{typed_unit} follows «{}», whose unit is {own:?}; {problem}",
-            value.id
-        ));
+        return Some(format!("{typed} follows «{}», whose unit is {own:?}; {problem}", value.id));
     }
     let sign = before.strip_suffix(['-', '−']).filter(|_| !maths || before != inside)?;
     let begins = |c: char| c.is_whitespace() || r"(|“$\*[".contains(c);
@@ -300,7 +293,7 @@ mod tests {
         let declared =
             "[[literal]]\nwhy = \"a collision has them\"\nphrases = [\"two masses\", \"at 100 %\"]";
         let declared = Declared::read(declared).unwrap();
-        numbers_in_words(text, 0..text.len(), &declared)
+        find_numbers(text, 0..text.len(), &declared)
             .into_iter()
             .map(|(_, numeral)| numeral)
             .collect()
@@ -325,11 +318,7 @@ mod tests {
         let value = super::super::mark::framed("rows[x=12].mean", "significant2");
         assert_eq!(found(&format!("at {value} or 3")), ["3"]);
         let sentence = "k_12";
-        assert_eq!(
-            numbers_in_words(sentence, 2..4, &Declared::default()),
-            [],
-            "the part of a word"
-        );
+        assert_eq!(find_numbers(sentence, 2..4, &Declared::default()), [], "the part of a word");
         assert!(Declared::read("[[literal]]\nwhy = \" \"\nphrases = [\"two\"]").is_err());
     }
 
@@ -348,17 +337,16 @@ mod tests {
             for (sentence, unit) in line.split('|').map(|one| one.split_once(',').unwrap()) {
                 let (before, after) = sentence.split_once('V').unwrap();
                 let value = Value { unit: unit.trim().into(), ..Value::real("x", 0.5, 1) };
-                let problem = conflict_beside(before, after, &value, Style::default(), false);
+                let problem = conflict(before, after, &value, Style::default(), false);
                 assert_eq!(problem.is_some(), wrong, "{sentence}: {problem:?}");
             }
         }
         let value = Value { unit: "ms".into(), ..Value::real("x", 0.5, 1) };
         let percent = Style { in_percent: true, ..Style::default() };
-        let problem = conflict_beside("", "", &value, percent, false).unwrap();
+        let problem = conflict("", "", &value, percent, false).unwrap();
         assert!(problem.contains("which `percent` would change"), "{problem}");
-        let of_maths = |before, after| {
-            conflict_beside(before, after, &value, Style::default(), true).is_some()
-        };
+        let of_maths =
+            |before, after| conflict(before, after, &value, Style::default(), true).is_some();
         assert!(of_maths("-$", "$") && of_maths("$0.", "$") && of_maths("$", ".5$"));
         let maths = |after| of_maths("$-", after);
         assert_eq!(

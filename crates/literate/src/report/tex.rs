@@ -37,7 +37,7 @@ pub fn escape(text: &str) -> String {
 }
 
 /// Returns the characters that pdflatex does not know; T1 fonts have letters with accents.
-pub fn unknown_characters(tex: &str) -> BTreeSet<char> {
+pub fn unknown(tex: &str) -> BTreeSet<char> {
     tex.chars().filter(|c| !c.is_ascii() && !('\u{c0}'..='\u{17f}').contains(c)).collect()
 }
 
@@ -140,7 +140,7 @@ pub fn signs(tex: &str) -> impl Iterator<Item = &str> {
 
 /// Returns what is wrong with a formula: an environment, or its first macro, that not every format
 /// supports, or a sign that must be escaped in LaTeX. (An environment needs its &.)
-pub fn find_unsupported(tex: &str) -> Option<String> {
+pub fn unsupported(tex: &str) -> Option<String> {
     let mut environments = tex.split(r"\begin{").skip(1).filter_map(|rest| rest.split('}').next());
     if !environments.all(|name| ENVIRONMENTS.contains(&name)) {
         return Some(format!("an environment must be one of {}", ENVIRONMENTS.join(", ")));

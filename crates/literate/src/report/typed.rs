@@ -1,6 +1,6 @@
 //! Tells what people typed or calculated in the tags of a template from what was computed.
 
-use super::lint::{Declared, numbers_in_words};
+use super::lint::{Declared, find_numbers};
 use std::collections::BTreeSet;
 
 pub type Names = BTreeSet<String>;
@@ -47,7 +47,7 @@ pub fn is_typed(expression: &str, typed: &Names) -> bool {
     let mut quoted = false;
     let has_numbers = bare.split(['"', '\'', '`']).any(|part| {
         quoted = !quoted;
-        let numbers = numbers_in_words(part, 0..part.len(), &Declared::default());
+        let numbers = find_numbers(part, 0..part.len(), &Declared::default());
         // `nth(n=1)` chooses.
         let chooses = |offset: usize| quoted && part[..offset].ends_with(['=', '.']);
         quoted && part.contains(['*', '/', '+', '%'])

@@ -52,7 +52,7 @@ pub fn files(
         }
         cards_by_id.insert(id, (page.inlines(&card.title), escape(&card.lead), numbers));
     }
-    Error::fail_if_any(page.errors.into_inner())?;
+    Error::check(page.errors.into_inner())?;
     let json = serde_json::to_string(&(rows, cards_by_id)).unwrap_or_default();
     let mut files = Files::from([("cards.js".into(), format!("CARDS = {json};\n").into_bytes())]);
     let font = |(name, bytes): (&str, &[u8])| (format!("fonts/{name}.woff2"), bytes.to_vec());

@@ -51,7 +51,7 @@ impl Reader<'_> {
             Event::Code(code) => {
                 let is_digits =
                     |(_, numeral): &(usize, String)| numeral.starts_with(|c: char| c.is_numeric());
-                let numbers = lint::numbers_in_words(&self.filled.text, range, self.declared);
+                let numbers = lint::find_numbers(&self.filled.text, range, self.declared);
                 self.hard_coded(numbers.into_iter().filter(is_digits));
                 Inline::Code(self.to_plain_text(&code)?)
             }
@@ -117,9 +117,8 @@ impl Reader<'_> {
                     matches!(&value.number, Number::Real { digits, .. } if has_error(digits));
                 let problem =
                     format!("«{id}» has a standard error, which `significant` drops; leave it out");
-                let beside = || {
-                    lint::conflict_beside(&source[..offset], &source[end..], value, style, maths)
-                };
+                let beside =
+                    || lint::conflict(&source[..offset], &source[end..], value, style, maths);
                 if let Some(problem) = drops.then_some(problem).or_else(beside) {
                     self.note_error(offset, Error::Template(problem));
                 }
@@ -213,7 +212,7 @@ impl Reader<'_> {
             let problem = if self.filled.is_typed(offset) { problem } else { GROUP };
             return Err(fault(problem).at(self.filled.place(offset)));
         }
-        self.hard_coded(lint::numbers_in_words(source, part.clone(), self.declared));
+        self.hard_coded(lint::find_numbers(source, part.clone(), self.declared));
         self.check_values(&part, false);
         // A backslash before a backslash is meant.
         let escaped = usize::from(source[..part.start].ends_with('\\') && text.starts_with('\\'));
@@ -259,7 +258,7 @@ impl Reader<'_> {
         let bare_index = "a value used as an index must stand in braces {…}";
         let has_index = formula.0.windows(2).any(is_index);
         if let Some(problem) =
-            has_index.then(|| bare_index.into()).or_else(|| tex::find_unsupported(&tex))
+            has_index.then(|| bare_index.into()).or_else(|| tex::unsupported(&tex))
         {
             return Err(Error::Maths { tex, problem });
         }
