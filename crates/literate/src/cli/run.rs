@@ -76,7 +76,9 @@ fn run_shard(
     for (experiment, units, identity) in shares.iter().filter(|(_, units, _)| !units.is_empty()) {
         session.progress.check()?;
         total += units.len();
-        run += experiment.run_units(units, identity, session)?;
+        if session.store.fresh(identity).is_err() {
+            run += experiment.run_units(units, identity, session)?;
+        }
     }
     Ok([run, total - run])
 }

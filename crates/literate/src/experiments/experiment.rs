@@ -172,14 +172,11 @@ pub trait AnyExperiment: Sync {
     /// Runs and saves those of the units that are not in the store; returns how many were run.
     fn run_units(
         &self,
-        _: &[Unit],
+        units: &[Unit],
         identity: &Identity,
         session: &Session<'_>,
     ) -> Result<usize, Error> {
-        if session.store.fresh(identity).is_ok() {
-            return Ok(0);
-        }
-        self.read_or_run(identity, session).map(|_| 1)
+        self.read_or_run(identity, session).map(|_| units.len())
     }
 
     /// Returns why and how much of the experiment must be run, or `None` if its saved result is
@@ -273,9 +270,6 @@ impl<P: Json, T: Json, U: Json> AnyExperiment for Experiment<P, T, U> {
         identity: &Identity,
         session: &Session<'_>,
     ) -> Result<usize, Error> {
-        if session.store.fresh(identity).is_ok() {
-            return Ok(0);
-        }
         let How::Cut(..) = self.how else {
             return self.read_or_run(identity, session).map(|_| units.len());
         };

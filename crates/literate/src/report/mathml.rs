@@ -25,7 +25,7 @@ fn convert(tex: &str, display: MathDisplay) -> Result<String, String> {
     converted.map(|converted| converted.mathml).map_err(|error| error.to_string())
 }
 
-/// Stands in the formula beside a value at which it is cut, so that a relation there keeps its space.
+/// Stands beside a value at which a formula is cut, so that a relation there keeps its space.
 const CUT: &str = "{}";
 
 /// Writes a formula, cut at its values, which `value` writes: screen readers would not reach a
