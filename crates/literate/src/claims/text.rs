@@ -21,10 +21,10 @@ pub struct Text(pub Vec<Number>);
 impl Text {
     /// Fills the marks of a sentence, `{share}`, or `{share:2}` for two digits, with the numbers
     /// that `number_of` returns for their names; the error is a mark without a number.
-    pub(super) fn fill<'a>(
-        sentence: &'a str,
+    pub(super) fn fill(
+        sentence: &str,
         mut number_of: impl FnMut(&str) -> Option<Number>,
-    ) -> Result<Text, &'a str> {
+    ) -> Result<Text, &str> {
         let mut pieces = sentence.split('{');
         let mut text = Text::from(pieces.next().unwrap_or_default());
         for piece in pieces {
