@@ -82,7 +82,7 @@ pub fn is_absent(error: &Error) -> bool {
     [ErrorKind::NotFound, ErrorKind::NotADirectory].contains(&error.kind())
 }
 
-/// Returns the remedy for an error of the system: `otherwise` where the place is at fault.
+/// Returns what to do about an error of the system, which is `otherwise` if the place is at fault.
 pub fn remedy<'a>(error: &Error, otherwise: &'a str) -> &'a str {
     match error.kind() {
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::WriteZero => "make room",

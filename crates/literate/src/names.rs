@@ -25,8 +25,8 @@ pub fn fault(name: &str) -> Option<String> {
 pub struct Names(BTreeMap<String, (String, String)>);
 
 impl Names {
-    /// Adds the name of a thing at a place in the source. Fails if there is one before that differs
-    /// in nothing, in the case of letters, or in `.`, `:` and `-` only.
+    /// Adds the name of a thing at a place in the source. Fails if an earlier name is the same, or
+    /// differs only in the case of letters or in `.`, `:` and `-`.
     pub fn add(&mut self, name: &str, place: &str) -> Result<(), String> {
         let file_name = name.to_lowercase().replace(['.', ':'], "-");
         let Some((other, earlier_place)) = self.0.insert(file_name, (name.into(), place.into()))

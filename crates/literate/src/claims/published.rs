@@ -62,7 +62,7 @@ pub struct Statement {
 pub struct PublishedError(pub(super) String);
 
 impl PublishedError {
-    fn at(line: usize, id: &str, problem: &str) -> PublishedError {
+    fn in_entry(line: usize, id: &str, problem: &str) -> PublishedError {
         PublishedError(format!("published.toml:{line}: the id {:?}: {problem}", one_line(id, 80)))
     }
 
@@ -86,7 +86,11 @@ impl Published {
         }
         for Parameter { id, value, .. } in &published.parameters {
             if !value.is_finite() {
-                return Err(PublishedError::at(last_line(id), id, "value is not a finite number"));
+                return Err(PublishedError::in_entry(
+                    last_line(id),
+                    id,
+                    "value is not a finite number",
+                ));
             }
         }
         let mut seen = BTreeSet::new();
@@ -95,7 +99,7 @@ impl Published {
             if !seen.insert(id) {
                 let first = line(ids.iter().find(|(known, _)| known == id));
                 let problem = format!("it is also on line {first}; give each entry its own");
-                return Err(PublishedError::at(last_line(id), id, &problem));
+                return Err(PublishedError::in_entry(last_line(id), id, &problem));
             }
         }
         Ok(published)
@@ -140,7 +144,7 @@ impl Statement {
     }
 
     pub(super) fn fault(&self, problem: &str) -> PublishedError {
-        PublishedError::at(self.line, &self.id, problem)
+        PublishedError::in_entry(self.line, &self.id, problem)
     }
 
     /// Reads the number from `printed` if this is one, and checks a number that is given besides.

@@ -66,14 +66,14 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     for ids in [&mut blind, &mut unmoved] {
         ids.retain(|id| checks.iter().any(|check| check.id == *id));
     }
-    print(&text(&checks, [&blind, &unmoved], &args, &numbers))?;
+    print(&report_text(&checks, [&blind, &unmoved], &args, &numbers))?;
     verdict(&checks)?;
     refuse_outdated(paper, &session, &args.options.out(paper)).map(drop)
 }
 
 /// Prints a line for each check that is not reproduced, failed ones first, and the scores; with -v,
 /// or if some were asked for, all that is known of each.
-fn text(
+fn report_text(
     checks: &[Check],
     unfailing: [&[&str]; 2],
     args: &Args,

@@ -29,7 +29,8 @@ impl Session<'_> {
         Session { progress: Progress::silent(), templates, store, code, ..*self }
     }
 
-    /// Prints one line if some units are to be run: of what, and about how long they take.
+    /// Prints one line that says what is run and about how long it takes, if any units are to be
+    /// run.
     pub(crate) fn announce(&self, subject: &str, units: &[Unit]) -> Result<(), Error> {
         if units.is_empty() {
             return Ok(());

@@ -126,7 +126,7 @@ fn parts<'a>(
         let Parsed { mut blocks, places, errors: more } = parsed;
         errors.extend(more);
         if let Some(error) = document::title(&blocks).err().filter(|_| !is_broken) {
-            errors.push(error.at(filled.place(0)));
+            errors.push(error.with_place(filled.place(0)));
         }
         let (figures, more) = illustrate(&mut blocks, input);
         errors.extend(more.into_iter().map(|error| places.locate(error)));
@@ -317,7 +317,7 @@ fn check_links(part: &Part<'_>, labels: &Labels, files: &Files, input: &Input<'_
     let error = |(to, place): (&str, Place)| {
         let problem =
             format!("a link to {to}: there is no such file or place; correct or remove it");
-        Error::unknown(Thing::Link(to.into()), problem, committed()).at(place)
+        Error::unknown(Thing::Link(to.into()), problem, committed()).with_place(place)
     };
     part.places.links().filter(|(to, _)| !is_good(to)).map(error).collect()
 }

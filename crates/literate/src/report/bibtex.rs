@@ -5,7 +5,8 @@ use biblatex::{Bibliography, ChunksExt, Entry, ParseError, ParseErrorKind};
 use biblatex::{RawBibliography, RawChunk};
 use std::collections::BTreeSet;
 
-/// Fields of which an entry needs one: with one of its own it has none of these from a parent.
+/// Groups of fields of which an entry needs one: an entry that has one of a group inherits none of
+/// it.
 const ALIKE: [&[&str]; 4] = [
     &["date", "month", "year"],
     &["doi", "eprint", "url"],
@@ -13,7 +14,8 @@ const ALIKE: [&[&str]; 4] = [
     &["institution", "school"],
 ];
 
-/// The names of `xdata` and `crossref` here, so that the crate does not follow them.
+/// The names under which `xdata` and `crossref` are kept, so that the crate does not follow them:
+/// in a circle it would not end.
 const PARENTS: [&str; 2] = [" xdata", " crossref"];
 
 /// Reads the entries. An abbreviation may be made of those that stand before it.
@@ -44,8 +46,8 @@ pub fn parse_entries(bibtex: &str) -> Result<Bibliography, ParseError> {
     Bibliography::from_raw(raw)
 }
 
-/// Sets quoted values in braces, since they may have quotes in braces, and `\'\i` as `\' i`: no
-/// place of the text moves.
+/// Writes quoted values in braces, since they may have quotes in braces, and `\'\i` as `\' i`,
+/// without moving any place of the text.
 fn with_braced_values(bibtex: &str) -> String {
     let mut bibtex = bibtex.to_string();
     for accent in "`'\"^~=.uvHcdbrk".chars() {
@@ -95,8 +97,9 @@ pub fn parents(entries: &Bibliography) -> Vec<String> {
         .collect()
 }
 
-/// Returns an entry with what it lacks from its parents, itself one of those that lie below it. The
-/// error is a message that follows its key.
+/// Returns an entry with the fields that it inherits from its parents. The keys of the entries that
+/// inherit from it stand in `below`, by which a circle is found. The error is a message that
+/// follows its key.
 pub fn completed(entry: &Entry, entries: &Bibliography, below: &[&str]) -> Result<Entry, String> {
     let (mut complete, keys_below) = (entry.clone(), [below, &[&entry.key]].concat());
     for field in PARENTS {

@@ -48,7 +48,7 @@ pub fn check(input: &Input<'_>, declared: &Declared) -> Vec<Error> {
             let found = typed.iter().find(|typed| typed.has(text, *at, numeral));
             let place = found.map(|typed| &*typed.place).or(quoted.map(|(path, _)| *path));
             let place = place.map(|place| format!("{place}: {:?}", one_line(text, 60)));
-            errors.extend(place.map(|place| Error::HardCoded(numeral.clone()).at(place)));
+            errors.extend(place.map(|place| Error::HardCoded(numeral.clone()).with_place(place)));
         }
     }
     errors

@@ -91,7 +91,7 @@ impl Error {
     }
 
     /// Adds the place where it can be corrected, unless it has one.
-    pub(crate) fn at(self, place: impl Into<Place>) -> Error {
+    pub(crate) fn with_place(self, place: impl Into<Place>) -> Error {
         match self {
             Error::At { .. } => self,
             error => Error::At { place: place.into(), error: Box::new(error) },

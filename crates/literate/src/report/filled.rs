@@ -114,7 +114,7 @@ impl<'a> Places<'a> {
             _ => None,
         };
         match offset {
-            Some(offset) => error.at(self.filled.place(offset)),
+            Some(offset) => error.with_place(self.filled.place(offset)),
             None => error,
         }
     }

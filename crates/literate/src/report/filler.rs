@@ -212,7 +212,11 @@ impl Filler {
 
 fn fault(templates: &Templates, path: &str, offset: usize, problem: &str) -> Error {
     let template = templates.text(path).unwrap_or_default();
-    Error::Template(problem.into()).at(Place::in_text(templates.place(path), template, offset))
+    Error::Template(problem.into()).with_place(Place::in_text(
+        templates.place(path),
+        template,
+        offset,
+    ))
 }
 
 /// A template writes at most this many bytes.

@@ -173,7 +173,7 @@ pub fn spell(tex: &str) -> String {
             "}" if signs.peek() == Some(&"{") => to_spelt_text.push('/'),
             "{" | "}" | "&" => (),
             "~" => to_spelt_text.push(' '),
-            sign => to_spelt_text.push_str(sign.strip_prefix('\\').map_or(sign, named)),
+            sign => to_spelt_text.push_str(sign.strip_prefix('\\').map_or(sign, spell_macro)),
         }
     }
     to_spelt_text
@@ -184,7 +184,7 @@ static SPELT: LazyLock<BTreeMap<&str, &str>> = LazyLock::new(|| {
     pairs("epsilon ε  varphi φ  leq ≤  geq ≥  lt <  gt >  vert |  sqrt √  dots …  ldots …")
 });
 
-fn named(name: &str) -> &str {
+fn spell_macro(name: &str) -> &str {
     match name {
         "mathrm" | "mathit" | "mathbf" | "mathbb" | "mathcal" | "mathsf" | "boldsymbol"
         | "text" | "left" | "right" | "operatorname" | "frac" | "dfrac" | "tfrac" | "bar"

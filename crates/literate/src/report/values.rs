@@ -42,7 +42,8 @@ impl Registry {
         self.tables.values().map(AsRef::as_ref)
     }
 
-    /// Makes the cells values that something names: those are listed, the others stand in the data.
+    /// Lists the cells with these addresses among the values; all other cells stand in the data
+    /// files alone.
     pub fn keep_cells<'a>(&mut self, named: impl IntoIterator<Item = &'a str>) {
         for address in named {
             if let Some(cell) = self.cell(address).cloned() {
@@ -51,7 +52,7 @@ impl Registry {
         }
     }
 
-    /// Shows the paths of items as documents do.
+    /// Shortens the paths of items to what documents show.
     pub fn shorten(&mut self, sources: &Sources) {
         for value in self.values.values_mut() {
             value.source = sources.short(&value.source).to_string();

@@ -24,7 +24,7 @@ impl Reader<'_> {
         while let Some((event, range)) = self.events.next_if(|(event, _)| !ends(event)) {
             let start = range.start;
             let outcome = self.inline(event, range, &mut inlines);
-            outcome.map_err(|error| error.at(self.filled.place(start)))?;
+            outcome.map_err(|error| error.with_place(self.filled.place(start)))?;
         }
         Ok(inlines)
     }
@@ -35,7 +35,7 @@ impl Reader<'_> {
         let inlines = self.inlines()?;
         if inlines.iter().any(|inline| matches!(inline, Inline::Display { .. })) {
             let problem = "an equation between $$ must stand in a paragraph; write $…$ here";
-            return Err(fault(problem).at(self.filled.place(start)));
+            return Err(fault(problem).with_place(self.filled.place(start)));
         }
         Ok(inlines)
     }
@@ -47,7 +47,7 @@ impl Reader<'_> {
         inlines: &mut Vec<Inline>,
     ) -> Result<(), Error> {
         inlines.push(match event {
-            Event::Text(text) => return self.text(&text, range, inlines),
+            Event::Text(text) => return self.read_text(&text, range, inlines),
             Event::Code(code) => {
                 let is_digits =
                     |(_, numeral): &(usize, String)| numeral.starts_with(|c: char| c.is_numeric());
@@ -178,7 +178,7 @@ impl Reader<'_> {
         Ok(Inline::Unresolved { ids, in_sentence: false })
     }
 
-    fn text(
+    fn read_text(
         &mut self,
         text: &str,
         part: Range<usize>,
@@ -197,20 +197,20 @@ impl Reader<'_> {
         if let Some(cut) = cut {
             let [from, to] = [cut.start - part.start, cut.end - part.start];
             let [before, after] = [text.get(..from), text.get(to..)].map(Option::unwrap_or_default);
-            self.text(before, part.start..cut.start, inlines)?;
+            self.read_text(before, part.start..cut.start, inlines)?;
             if cut != id_at {
                 let id = source[cut.start + 1..cut.end].to_string();
                 self.places.add(Thing::Reference(id.clone()), cut.start);
                 inlines.push(Inline::Unresolved { ids: vec![id], in_sentence: true });
             }
-            return self.text(after, cut.end..part.end, inlines);
+            return self.read_text(after, cut.end..part.end, inlines);
         }
         if let Some((offset, problem)) = leftover(source, part.start, text)
             && offset >= self.quiet_until
         {
             self.quiet_until = offset + source[offset..].find("\n\n").unwrap_or(source.len());
             let problem = if self.filled.is_typed(offset) { problem } else { GROUP };
-            return Err(fault(problem).at(self.filled.place(offset)));
+            return Err(fault(problem).with_place(self.filled.place(offset)));
         }
         self.hard_coded(lint::find_numbers(source, part.clone(), self.declared));
         self.check_values(&part, false);

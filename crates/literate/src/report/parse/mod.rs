@@ -50,7 +50,8 @@ pub fn parse<'a>(
         depth > 40
     });
     if let Some((_, range)) = deep {
-        let error = fault("lists or emphasis are nested too deeply").at(filled.place(range.start));
+        let error =
+            fault("lists or emphasis are nested too deeply").with_place(filled.place(range.start));
         return Parsed { blocks: Vec::new(), places: Places::new(filled), errors: vec![error] };
     }
     let mut reader = Reader {
@@ -111,12 +112,12 @@ impl<'a> Reader<'a> {
         &self.filled.text[range.clone()]
     }
 
-    fn note_error(&mut self, at: usize, error: Error) {
-        self.errors.push(error.at(self.filled.place(at)));
+    fn note_error(&mut self, offset: usize, error: Error) {
+        self.errors.push(error.with_place(self.filled.place(offset)));
     }
 
-    fn id(&mut self, kind: &str, id: &str, at: usize) -> Result<(), Error> {
-        self.places.add(Thing::Id(id.into()), at);
+    fn id(&mut self, kind: &str, id: &str, offset: usize) -> Result<(), Error> {
+        self.places.add(Thing::Id(id.into()), offset);
         check_kind(kind, id)
     }
 
@@ -129,7 +130,7 @@ impl<'a> Reader<'a> {
                 break;
             }
             let block = self.block().and_then(|block| may_stand(block, within));
-            match block.map_err(|error| error.at(self.filled.place(start))) {
+            match block.map_err(|error| error.with_place(self.filled.place(start))) {
                 Ok(block) => blocks.push(block),
                 Err(error) if within => return Err(error),
                 Err(error) => {
@@ -331,7 +332,7 @@ impl<'a> Reader<'a> {
                 let problem = format!(
                     "a row has {count} cells in a table of {expected} columns; write a bar within a cell as \\|"
                 );
-                return Err(fault(problem).at(self.filled.place(range.start)));
+                return Err(fault(problem).with_place(self.filled.place(range.start)));
             }
             let mut cells = Vec::new();
             while self.begins(|tag| *tag == Tag::TableCell).is_some() {
