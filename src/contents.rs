@@ -23,7 +23,7 @@ pub fn values(_: &Results, _: &Published) -> Result<Vec<Value>, Failure> {
         Value::integer("statistical_claims", level.claims),
         Value::real("claim_quantile", level.quantile, 3),
         Value::real("family_level", FAMILY_LEVEL, 1),
-        Value::text("version", env!("CARGO_PKG_VERSION")),
+        Value::words("version", env!("CARGO_PKG_VERSION")),
     ];
     Ok(values.map(|value| value.source(origin(claims::level))).into())
 }

@@ -12,7 +12,7 @@ const MODULE: &str = "target/page.wasm";
 
 /// The file; none without the engine.
 pub fn lab(session: &Session<'_>, results: &Results) -> Result<Option<String>, Failure> {
-    let found = session.project.find(MODULE).and_then(|path| input::regular(&path).ok());
+    let found = session.project.find(MODULE).and_then(|path| input::read_file(&path).ok());
     match found.filter(|module| module.starts_with(b"\0asm")) {
         Some(module) => {
             let files = session.templates.iter().filter(|(path, _)| path.starts_with("lab/"));

@@ -82,7 +82,7 @@ fn two_seeds(e: &Evidence<'_>) -> Departures {
     };
     let differences = second.rows.iter().filter_map(between);
     let differences: Vec<Estimate> = differences.filter(|found| found.error > 0.0).collect();
-    let quantile = e.level()?.among(differences.len());
+    let quantile = e.level()?.quantile_among(differences.len());
     departures.extend(differences.iter().map(|found| found.value.abs() / (quantile * found.error)));
     Ok(departures)
 }

@@ -170,7 +170,7 @@ fn mode_jump(e: &Evidence<'_>) -> Judged {
     let [Ok(lower), Ok(above)] = lower else { return Ok(check) };
     let is_sure = e.number(&format!("{row}.single_jumps")).is_ok();
     let key = if is_sure { "note_single" } else { "note_single_open" };
-    let note = e.text(key, numbers![lower, above, single])?;
+    let note = e.sentence(key, numbers![lower, above, single])?;
     let note = check.note.clone().then(" ").then(note);
     Ok(check.note(note))
 }
@@ -231,7 +231,7 @@ fn by_protocol(e: &Evidence<'_>, name: &str, place: fn(&Rise) -> Option<Estimate
         if let [Some(least), Some(most)] = [at.first(), at.last()] {
             let (known, windows, released) = (at.len(), windows.len(), RELEASED);
             let numbers = numbers![known, windows, released, least = *least, most = *most, printed];
-            pieces.push(e.text(key, numbers)?);
+            pieces.push(e.sentence(key, numbers)?);
         }
     }
     let place = e.estimate(&format!("sweep.rise.{name}"))?;
@@ -268,7 +268,7 @@ fn mode_rise(e: &Evidence<'_>) -> Judged {
     ];
     let check = e.check(by_runs([printed, all - printed, all]), found)?;
     let Ok(ring) = e.estimate("jump.ring.place") else { return Ok(check) };
-    let note = check.note.clone().then(" ").then(e.text("note_ring", numbers![ring])?);
+    let note = check.note.clone().then(" ").then(e.sentence("note_ring", numbers![ring])?);
     Ok(check.note(note))
 }
 
@@ -325,7 +325,7 @@ fn walls_like_masses(e: &Evidence<'_>) -> Judged {
     let allowed = half_unit(e)?;
     let check = e.check(difference.value.abs() <= allowed, numbers![difference, allowed])?;
     let Ok(mode) = e.estimate("jump.ring.difference") else { return Ok(check) };
-    let note = check.note.clone().then(" ").then(e.text("note_mode", numbers![mode])?);
+    let note = check.note.clone().then(" ").then(e.sentence("note_mode", numbers![mode])?);
     Ok(check.note(note))
 }
 

@@ -43,7 +43,7 @@ pub fn rules() -> Vec<Rule> {
 
 fn eq25(e: &Evidence<'_>) -> Judged {
     let check = e.rounding(e.number("theory.relation.difference")?, 1e-12);
-    Ok(check.note(e.text("note", &[])?))
+    Ok(check.note(e.sentence("note", &[])?))
 }
 
 /// Weights in proportion to p^k have a mean with the slope Var(X)/p.
@@ -254,7 +254,7 @@ fn ensured(e: &Evidence<'_>, pick: fn(&Total) -> u64) -> Judged {
     )?;
     let mut note = check.note.clone();
     if let Some(from) = decided.first().filter(|_| at < all) {
-        note = note.then(" ").then(e.text("note_some", numbers![from = *from])?);
+        note = note.then(" ").then(e.sentence("note_some", numbers![from = *from])?);
     }
-    Ok(check.note(note.then(" ").then(e.text("note_enough", numbers![enough, negligible])?)))
+    Ok(check.note(note.then(" ").then(e.sentence("note_enough", numbers![enough, negligible])?)))
 }

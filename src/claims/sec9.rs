@@ -81,7 +81,7 @@ fn eq38(e: &Evidence<'_>) -> Judged {
     let [all, wrong] = compared(e)?;
     let row = "theory.cases[statement=sec9_eq38_in_range]";
     let [in_range, failed] = e.numbers(row, ["compared", "failed"])?.map(|count| count as usize);
-    let why = e.text("note", numbers![in_range])?;
+    let why = e.sentence("note", numbers![in_range])?;
     Ok(e.all_cases(all, wrong).explained(why, failed == 0 && in_range > 0))
 }
 

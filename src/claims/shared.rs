@@ -61,7 +61,7 @@ pub fn defined(id: &'static str) -> Rule {
 pub fn cases(id: &'static str) -> Rule {
     Rule::new(id, |e| {
         let [all, failed] = compared(e)?;
-        Ok(e.all_cases(all, failed).note(e.text("note", &[])?))
+        Ok(e.all_cases(all, failed).note(e.sentence("note", &[])?))
     })
     .on(FiniteCases)
 }
@@ -70,7 +70,7 @@ pub fn cases(id: &'static str) -> Rule {
 #[track_caller]
 pub fn equality(id: &'static str, allowed: f64) -> Rule {
     let judge = move |e: &Evidence<'_>| {
-        Ok(e.rounding(largest_difference(e)?, allowed).note(e.text("note", &[])?))
+        Ok(e.rounding(largest_difference(e)?, allowed).note(e.sentence("note", &[])?))
     };
     Rule::new(id, judge).on(FiniteCases)
 }

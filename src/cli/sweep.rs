@@ -161,7 +161,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let progress = Progress::on_stderr();
     let rows = args.threads.run(|| rows(ensemble, &progress))?;
     let header = COLUMNS.map(|(name, _)| name.to_string()).into();
-    print(&DataFile { name: "sweep.csv".into(), header, rows }.csv())
+    print(&DataFile { name: "sweep.csv".into(), header, rows }.to_csv())
 }
 
 fn rows(ensemble: Ensemble, progress: &Progress) -> Result<Vec<Vec<String>>, Failure> {

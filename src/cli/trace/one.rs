@@ -7,7 +7,7 @@ use impact_chain::rounding;
 use impact_chain::{Counters, End, Engine, Error, Event, Graze, Impact, LATEST, Scenario, State};
 use impact_paper::params::MethodName;
 use literate::Failure;
-use literate::input::{one_line, plain};
+use literate::input::{in_plain_words, one_line};
 use std::f64::consts::TAU;
 use std::fmt::{Arguments, Write};
 use std::ops::ControlFlow::{Break, Continue};
@@ -295,6 +295,9 @@ fn in_file(name: &str, error: Error) -> Failure {
         Error::Input { ref field, .. } if ["step", "tolerance"].contains(&field.as_str()) => {
             Failure::input(format!("--{error}"))
         }
-        error => Failure::input(format!("{name}: {}", one_line(&plain(&error.to_string()), 1000))),
+        error => Failure::input(format!(
+            "{name}: {}",
+            one_line(&in_plain_words(&error.to_string()), 1000)
+        )),
     }
 }

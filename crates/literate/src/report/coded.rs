@@ -27,7 +27,7 @@ pub fn check(input: &Input<'_>, declared: &Declared) -> Vec<Error> {
     let code = code.map(|(path, text)| (path.to_string(), *text));
     let mut numbered = Vec::new();
     for (text, file, with_words) in given(input) {
-        let mut numerals = lint::words(&text, 0..text.len(), declared);
+        let mut numerals = lint::find_numbers(&text, 0..text.len(), declared);
         let is_meant = |numeral: &str| with_words || numeral.starts_with(char::is_numeric);
         numerals.retain(|(at, one)| is_meant(one) && is_number(&text, *at, one));
         if !numerals.is_empty() {
@@ -56,7 +56,7 @@ pub fn check(input: &Input<'_>, declared: &Declared) -> Vec<Error> {
             let typed = typed.find(|typed| typed.cover(text, *at));
             let place = typed.map(|typed| &*typed.place).or(quoted.map(|(path, _)| *path));
             let place = place.map(|place| format!("{place}: {:?}", one_line(text, 60)));
-            errors.extend(place.map(|place| Error::HardCoded(numeral.clone()).at(place)));
+            errors.extend(place.map(|place| Error::HardCoded(numeral.clone()).with_place(place)));
         }
     }
     errors
@@ -72,7 +72,7 @@ fn typed(path: &str, code: &str, wanted: &HashSet<&str>) -> Vec<Typed> {
         let may_have_number = wants_words || piece.bytes().any(|byte| byte.is_ascii_digit());
         if may_have_number && has_one_of(piece, wanted) && piece.contains(char::is_alphabetic) {
             let text = piece.replace(r"\\", r"\");
-            let numerals = lint::words(&text, 0..text.len(), &Declared::default());
+            let numerals = lint::find_numbers(&text, 0..text.len(), &Declared::default());
             let numerals = numerals.into_iter().map(|(_, numeral)| numeral).collect();
             let (place, words) = (format!("{path}:{line}"), bare(&text.replace('\\', "")));
             typed.push(Typed { place, words, numerals });
