@@ -204,7 +204,7 @@ const WAITING: f64 = 8.0;
 fn engine_as_promised(e: &Evidence<'_>) -> Departures {
     let mut departures = Vec::new();
     // The engine is the first of the methods.
-    let trials = e.results.of(&TRIALS)?.found.iter().map(|trials| &trials[0]);
+    let trials = e.results.of(&TRIALS)?.trials.iter().map(|trials| &trials[0]);
     let wrong =
         trials.flatten().filter(|found| !matches!(found, Outcome::Right | Outcome::Refused));
     departures.push(2.0 * wrong.count() as f64);

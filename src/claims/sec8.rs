@@ -6,7 +6,7 @@ use crate::experiments::protocol::range;
 use crate::experiments::rise::Curve;
 use crate::experiments::starts::share_of_start;
 use crate::experiments::sweep;
-use crate::experiments::theory::comparison::{self, LARGE_SIGMA, largest_distance};
+use crate::experiments::theory::comparison::{LARGE_SIGMA, interpolate, largest_distance};
 use crate::experiments::theory::law::law;
 use crate::experiments::{LENGTHS, PROTOCOL, RESTITUTION, STARTS};
 use crate::params::VERTICES;
@@ -109,9 +109,9 @@ fn p_poor(e: &Evidence<'_>) -> Judged {
     let (mean, relation) = (column("simple")?, column("p")?);
     let inverse: Vec<(f64, f64)> = mean.iter().zip(&relation).map(|(a, b)| (a.1, b.1)).collect();
     let times = |(sigma, mean): (f64, f64)| {
-        Some(comparison::at(&inverse, mean)? / comparison::at(&relation, sigma)?)
+        Some(interpolate(&inverse, mean)? / interpolate(&relation, sigma)?)
     };
-    let there = |means: &Vec<(f64, f64)>| times((sigma, comparison::at(means, sigma)?));
+    let there = |means: &Vec<(f64, f64)>| times((sigma, interpolate(means, sigma)?));
     let means = e.results.table("sweep.rows")?.curve(&[], "sigma", "mean")?;
     let everywhere = |means: &Vec<(f64, f64)>| {
         let rows = means.iter().copied().filter(|(sigma, _)| *sigma < below);
@@ -157,11 +157,11 @@ fn large_sigma(e: &Evidence<'_>) -> Judged {
     let far = distances.map(|[distance, ..]| distance).fold(distance, f64::max);
     let printed = e.published.statement("sec8_p_small")?.number()?;
     let [mean_there, theory_there] =
-        [&means, &curve].map(|curve| comparison::at(curve, printed).ok_or(Undecided));
+        [&means, &curve].map(|curve| interpolate(curve, printed).ok_or(Undecided));
     let missing = mean_there? - theory_there?;
     // Without a free part only the forced amplitude counts: p = exp(−d²/4σ²) at this Ω.
     let is_far = |(sigma, mean): (f64, f64)| {
-        let theory = comparison::at(&curve, sigma)?;
+        let theory = interpolate(&curve, sigma)?;
         (sigma < LARGE_SIGMA && (mean - theory).abs() > limit).then_some(sigma)
     };
     let down = means.iter().copied().filter_map(is_far).reduce(f64::max).ok_or(Undecided)?;

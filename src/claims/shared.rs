@@ -1,7 +1,7 @@
 //! Makes the rules that several sections have in common, and gives the others what they share.
 
 use crate::experiments::PROTOCOL;
-use crate::experiments::ensembles::{Counted, named};
+use crate::experiments::ensembles::{Counted, find_ensemble};
 use crate::experiments::rise::Curve;
 pub use literate::claims::Basis::{FiniteCases, OurMeasure, PrintedDigit, Rounding};
 pub use literate::claims::Error::{self, Undecided};
@@ -9,8 +9,8 @@ pub use literate::claims::{Evidence, Judged, Kind, Rule};
 pub use literate::numbers;
 
 /// Finds the chains of this name among those of an experiment.
-pub fn ensemble<'a>(found: &'a [Counted], name: &str) -> Result<&'a Counted, Error> {
-    named(found, name).ok_or(Undecided)
+pub fn ensemble<'a>(counted: &'a [Counted], name: &str) -> Result<&'a Counted, Error> {
+    find_ensemble(counted, name).ok_or(Undecided)
 }
 
 /// A shorter transient counts the first impacts of a chain that has just been released (ours).

@@ -72,7 +72,7 @@ const APART: &[(&str, &str)] = &[
     ("src/contents.rs", "shows results, as do the next two"),
     ("src/equations.rs", "lists equations"),
     ("src/lab.rs", "hands results to pages"),
-    ("src/lib.rs", "declares modules"),
+    ("src/lib.rs", "puts the paper together"),
     ("src/experiments/mod.rs", "declares modules"),
     ("src/experiments/prelude.rs", "names what stands elsewhere"),
     ("src/experiments/list.rs", "lists experiments"),

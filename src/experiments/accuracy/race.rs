@@ -56,7 +56,7 @@ struct Course {
 pub fn run(parameters: &RaceParams, progress: &Progress) -> Result<Race, Error> {
     let growth = horizon::run(&parameters.growth, progress)?;
     let stage = progress.stage("true motions", parameters.chains as u64);
-    let courses = each(&stage, progress, 0..parameters.chains as u64, |index| {
+    let courses = run_each(&stage, progress, 0..parameters.chains as u64, |index| {
         let scenario = parameters.growth.scenario(index);
         let hits = TrueMotion::of(&scenario, &State::of(&scenario)).run(parameters.until);
         Ok(Course { scenario, hits: hits.map_err(|source| Error::failed("race", source))? })
@@ -64,7 +64,7 @@ pub fn run(parameters: &RaceParams, progress: &Progress) -> Result<Race, Error> 
     let targets = targets(parameters.segments, &courses);
     let targets = targets.map_err(|source| Error::failed("race", source))?;
     let stage = progress.stage("methods against the truth", parameters.settings.len() as u64);
-    let entries = each(&stage, progress, &parameters.settings, |setting| {
+    let entries = run_each(&stage, progress, &parameters.settings, |setting| {
         entry(parameters, *setting, &courses, &targets, progress)
     })?;
     Ok(Race { parameters: parameters.clone(), growth, entries })

@@ -80,9 +80,9 @@ pub(super) fn eq38(census: &Census, from: usize) -> Cases {
         (from..=n).take_while(move |k| k + 3 <= longest).map(move |k| (n, k))
     };
     cases((1..).zip(LONGEST).flat_map(lengths).map(|(n, k)| {
-        let found = CLASSES.map(|one| counted(census, n, k + one.excess(), one.repeats) as f64);
+        let counted = CLASSES.map(|one| counted(census, n, k + one.excess(), one.repeats) as f64);
         let printed = CLASSES.map(|one| (one.printed)(n, k + one.excess()));
-        printed.into_iter().sum::<Option<f64>>() == Some(found.into_iter().sum())
+        printed.into_iter().sum::<Option<f64>>() == Some(counted.into_iter().sum())
     }))
 }
 
@@ -95,8 +95,9 @@ pub(super) fn class_ranges(census: &Census) -> Vec<(f64, usize, Cases, Option<f6
         };
         let possible: Vec<(usize, usize)> =
             enumerated().filter(|&(n, k)| class.different(k).is_some_and(|d| d <= n)).collect();
-        let below = possible.iter().filter(|at| !agrees(at)).map(|at| at.1).max().unwrap_or(0);
-        let cases = cases(possible.iter().filter(|at| at.1 > below).map(agrees));
+        let below =
+            possible.iter().filter(|size| !agrees(size)).map(|size| size.1).max().unwrap_or(0);
+        let cases = cases(possible.iter().filter(|size| size.1 > below).map(agrees));
         let counted = counted(census, 3, below, class.repeats);
         (class.equation.into(), below + 1, cases, (class.printed)(3, below), counted)
     };

@@ -1,6 +1,6 @@
 //! Computes p(σ), and μ along it (Sec. 8, Figs. 11, 12 and 15), and gaps that close by themselves.
 
-use super::basics::{known, largest, one};
+use super::basics::{known, largest, one_row};
 use super::law::law;
 use crate::experiments::prelude::*;
 use crate::params::{self, Grid, Profile, VERTICES};
@@ -101,7 +101,7 @@ pub(super) fn relation() -> Table {
     let crit = known(p_crit(VERTICES));
     let jumps = [(Simple, VERTICES), (Simple, VERTICES + 1), (FiveClasses, VERTICES)];
     let [jump, walls, higher] = jumps.map(|(space, vertices)| known(p_jump(space, vertices)).p);
-    one("theory.relation", origin(reaches))
+    one_row("theory.relation", origin(reaches))
         .real("sigma_crit", SIGMA, 4, "σ at which p is p_crit", |()| reaches(p_of, crit))
         .real("sigma_jump", SIGMA, 4, "σ at which p is p_jump", |()| reaches(p_of, jump))
         .real("sigma_jump_walls", SIGMA, 4, "the same for N + 1", |()| reaches(p_of, walls))
