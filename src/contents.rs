@@ -55,8 +55,8 @@ pub fn rows(results: &Results, checks: &[Check]) -> Result<BTreeMap<&'static str
     ]))
 }
 
-/// Returns a basis, how many statements rest on it, how many of these are reproduced, and a sign for
-/// each, by verdict, or `None` if no statement rests on it.
+/// Returns a basis, how many statements rest on it, how many of these are reproduced, and a sign
+/// for each, by verdict, or `None` if no statement rests on it.
 fn basis_row(basis: Basis, checks: &[&Check]) -> Option<Json> {
     let mut own: Vec<_> = checks.iter().filter(|check| check.basis == basis).collect();
     own.sort_by_key(|check| Verdict::ALL.iter().position(|verdict| *verdict == check.verdict));

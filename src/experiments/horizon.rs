@@ -67,8 +67,8 @@ const GROWING: std::ops::Range<f64> = 1e-13..1e-4;
 /// Units of time in which the largest difference is one point of the growth.
 const STRIDE: f64 = 5.0;
 
-/// Returns λ, the slope of a line through the largest logarithm of each stride, or `None` below three
-/// points.
+/// Returns λ, the slope of a line through the largest logarithm of each stride, or `None` below
+/// three points.
 fn growth_rate(differences: &[(f64, f64)]) -> Option<f64> {
     let stride = |point: &(f64, f64)| (point.0 / STRIDE) as u64;
     let points: Vec<(f64, f64)> = differences

@@ -18,9 +18,9 @@ struct MethodSettings {
     scenes: &'static [f64],
     /// Against the number of masses.
     scale: &'static [f64],
-    /// For the mean, each with its number of chains at each of [`MEANS`]. The engine and the cheapest
-    /// rivals have so many that the 95 % interval is about half of what is asked; less is enough for
-    /// one that is far off, and for one that takes longer than another that suffices.
+    /// For the mean, each with its number of chains at each of [`MEANS`]. The engine and the
+    /// cheapest rivals have so many that the 95 % interval is about half of what is asked; less is
+    /// enough for one that is far off, and for one that takes longer than another that suffices.
     means: &'static [(f64, [usize; 4])],
 }
 

@@ -194,8 +194,8 @@ impl Realisations<'_> {
         runs.map(|(index, counts)| counts.map_or_else(|| by_engine(index), Ok)).collect()
     }
 
-    /// Lists the scenarios at the time from which transients are measured, each with the place of its
-    /// realisation; those whose heating only the engine can simulate are left out.
+    /// Lists the scenarios at the time from which transients are measured, each with the place of
+    /// its realisation; those whose heating only the engine can simulate are left out.
     fn starts(&self, indices: &[u64], stopped: &dyn Fn() -> bool) -> Vec<(usize, Scenario)> {
         let one = self.ensemble;
         let draw = |sigma, index: &u64| Scenario::draw(&one.chain, sigma, &mut one.normals(*index));

@@ -38,8 +38,8 @@ pub fn jackknife(
     Some(with_error(statistic(None)?, error))
 }
 
-/// Returns the ratio of two sums over realisations with its jackknife error, or `None` if the second
-/// sum is not positive without each of them.
+/// Returns the ratio of two sums over realisations with its jackknife error, or `None` if the
+/// second sum is not positive without each of them.
 pub fn ratio(pairs: &[[f64; 2]]) -> Option<Estimate> {
     let sum = |place: usize| pairs.iter().map(|pair| pair[place]).sum::<f64>();
     let [above, below] = [sum(0), sum(1)];

@@ -69,8 +69,8 @@ pub fn normal_quantile(level: f64) -> f64 {
     (z * 1e9).round() / 1e9
 }
 
-/// Returns the two-sided quantile of Student's t with `freedom` degrees of freedom, rounded like the
-/// normal one, or `None` below one degree.
+/// Returns the two-sided quantile of Student's t with `freedom` degrees of freedom, rounded like
+/// the normal one, or `None` below one degree.
 pub fn student_quantile(level: f64, freedom: usize) -> Option<f64> {
     let t = StudentsT::new(0.0, 1.0, freedom as f64).ok()?.inverse_cdf(0.5 + 0.5 * level);
     Some((t * 1e9).round() / 1e9)
@@ -99,8 +99,9 @@ pub fn clopper_pearson(successes: u64, trials: u64, level: f64) -> Option<[f64; 
     (trials > 0).then_some([low, high])
 }
 
-/// Returns the x at which y(x) passes `level` for the last time, linear between the points that have
-/// a value: no later point is below it. `None` if y ends below the level or never lies below it.
+/// Returns the x at which y(x) passes `level` for the last time, linear between the points that
+/// have a value: no later point is below it. `None` if y ends below the level or never lies below
+/// it.
 pub fn last_rise(x: &[f64], y: &[Option<f64>], level: f64) -> Option<f64> {
     let points: Vec<(f64, f64)> = x.iter().zip(y).filter_map(|(&x, &y)| Some((x, y?))).collect();
     let below = points.iter().rposition(|&(_, y)| y < level)?;

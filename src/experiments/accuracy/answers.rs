@@ -75,8 +75,8 @@ impl Question {
         self.answers.iter().find(|answer| answer.setting.method == Certified)
     }
 
-    /// Returns by what factor the engine or its fastest rival is faster than the other, or `None` if
-    /// one of them does not answer.
+    /// Returns by what factor the engine or its fastest rival is faster than the other, or `None`
+    /// if one of them does not answer.
     fn lead(&self) -> Option<f64> {
         let ratio = self.rival()?.seconds / self.engine()?.seconds;
         Some(ratio.max(1.0 / ratio))

@@ -121,8 +121,8 @@ impl Case {
         Scenario::parse_json(&self.scenario.to_string())
     }
 
-    /// Runs the case by a method, and returns the outcome and the least speed at which a gap opened by
-    /// the law, infinity if none did.
+    /// Runs the case by a method, and returns the outcome and the least speed at which a gap opened
+    /// by the law, infinity if none did.
     pub fn run(&self, method: &Run) -> (Outcome, f64) {
         let Ok(scenario) = self.chain() else { return (Outcome::Refused, f64::INFINITY) };
         let (mut seen, mut slowest) = (Vec::new(), f64::INFINITY);

@@ -63,8 +63,8 @@ impl Law {
         (points.len() >= 2 + usize::from(self.limited)).then(|| fit(centre))
     }
 
-    /// Estimates a number of the fit to the distances of one length, or returns `None` if a distance
-    /// has no error.
+    /// Estimates a number of the fit to the distances of one length, or returns `None` if a
+    /// distance has no error.
     pub fn estimate(self, pairs: &[Pair], number: fn(&Fit) -> f64) -> Option<Estimate> {
         let weight = |pair: &Pair| pair.estimate(distance).map(|own| 1.0 / (own.error * own.error));
         let weights = pairs.iter().map(weight).collect::<Option<Vec<f64>>>()?;
