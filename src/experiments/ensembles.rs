@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 
 pub type Ensembles = Experiment<Vec<Ensemble>, Vec<Counted>, Counts>;
 
-/// Returns an experiment with these ensembles and tables; people who wait see its title.
+/// Makes the experiment of some ensembles; its title is shown while it runs.
 pub const fn ensembles(
     name: &'static str,
     title: &'static str,

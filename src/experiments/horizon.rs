@@ -24,7 +24,8 @@ pub struct Horizon {
 
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Twins {
-    /// Time of the first impact whose gap differs, if there was one, and impacts before it.
+    /// Time of the first impact whose gap differs and the number of impacts before it, or `None` if
+    /// all gaps agree.
     pub order: Option<(f64, u64)>,
     /// Growth rate λ of their difference in time, e-folds per unit of time.
     pub growth: Option<f64>,

@@ -75,7 +75,7 @@ pub struct Measurement {
     /// Time of the first impact with a wrong gap or off by more than 1e−3, or `None` if all are
     /// right.
     pub horizon_time: Option<f64>,
-    /// Time of all of it: of the clock, for methods of the processor.
+    /// Time of the whole run: of the clock, for methods of the processor.
     pub seconds: Option<f64>,
     /// Processor time of the engine on the same chains, for methods.
     pub engine_seconds: Option<f64>,

@@ -24,8 +24,8 @@ pub struct Segments {
     pub fig06: Segment,
     /// Periodic orbits with the impacts of Fig. 5 and of Fig. 6, each over two periods.
     pub periodic: [Segment; 2],
-    /// Periodic orbits that are no circuit, likewise: one without an impact, and one in which two
-    /// masses, driven against each other, hit both walls at one instant.
+    /// Periodic orbits that are no circuit, over two periods too: one without an impact, and one in
+    /// which two masses, driven against each other, hit both walls at one instant.
     pub no_circuit: [Segment; 2],
 }
 

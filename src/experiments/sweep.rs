@@ -64,11 +64,11 @@ fn run(sweep: &Counted, total: &Total) -> Table {
 /// Makes the table of means (of different gaps, of impacts, of masses) and shares at each σ.
 fn rows(sweep: &Counted) -> Table {
     const KEPT: &str = "share of the realisations with an impact in the window";
-    let kept = |row: &RisePoint| share(row.kept as u64, row.ran as u64);
+    let kept_share = |row: &RisePoint| share(row.kept as u64, row.ran as u64);
     Table::of("sweep.rows", &sweep.first().rows, |row| row.ran)
         .key("sigma", SIGMA, |row| row.sigma)
         .computed_by(origin(RisePoint::new))
-        .estimate("kept", "1", KEPT, kept)
+        .estimate("kept", "1", KEPT, kept_share)
         .estimate("mean_all", "1", "gaps with an impact, mean of all", |r| r.mean_all?.estimate())
         .over(|row| row.kept)
         .estimate("mean", "1", "gaps hit, mean of those with any", |row| row.mean?.estimate())
@@ -141,11 +141,13 @@ fn sticking() -> Table {
         .done()
 }
 
+/// Lists the σ at which the mode has an interval, with the interval.
 fn mode_intervals(curve: &Curve) -> impl Iterator<Item = (f64, [usize; 2])> {
     curve.rows.iter().filter_map(|row| Some((row.sigma, row.mode_interval?)))
 }
 
-/// Returns the σ between which the mode passes half of all gaps, by its bootstrap intervals.
+/// Returns the σ between which the mode passes half of all gaps, by its bootstrap intervals, or
+/// `None` if it does not pass.
 pub fn mode_half(curve: &Curve, gaps: usize) -> Option<[f64; 2]> {
     let half = gaps as f64 / 2.0;
     let intervals: Vec<(f64, [usize; 2])> = mode_intervals(curve).collect();

@@ -145,11 +145,11 @@ impl RaceParams {
     }
 }
 
-/// Least rebound speeds there, each with the fine setting of a method that locates impacts.
+/// Least rebound speeds in the scenes, each with the fine setting of a method that locates impacts.
 const STOPS: [f64; 2] = [1e-3, 1e-4];
 
-/// Returns the settings there: methods from coarse to fine, only coarse in the quick profile, then
-/// with the least rebound speeds.
+/// Returns the settings in the scenes: each method from coarse to fine, in the quick profile only
+/// coarse, and then with the least rebound speeds.
 pub fn trial_settings(profile: Profile) -> Vec<Setting> {
     let most = if profile == Profile::Quick { 1 } else { usize::MAX };
     let mut settings = settings(|one| &one.scenes[..one.scenes.len().min(most)]);

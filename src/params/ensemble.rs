@@ -159,7 +159,7 @@ impl Ensemble {
     }
 }
 
-/// Realisations at one σ, which are simulated side by side; the engine does those that cannot.
+/// Realisations at one σ, which are simulated side by side, or else one by one by the engine.
 pub struct Realisations<'a> {
     ensemble: &'a Ensemble,
     sigma: f64,

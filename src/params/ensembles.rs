@@ -6,9 +6,9 @@ use super::grid::Grid;
 use impact_chain::{Boundary, Chain, Protocol, Start};
 use literate::experiments::Profile;
 
-/// Windows (T, T + W] for all of these T and W, transients outer.
-fn windows(transients: &[f64], windows: &[f64]) -> Vec<Protocol> {
-    let after = |&transient| windows.iter().map(move |&window| Protocol { transient, window });
+/// Lists the windows (T, T + W] of all transients T, each with all widths W.
+fn windows(transients: &[f64], widths: &[f64]) -> Vec<Protocol> {
+    let after = |&transient| widths.iter().map(move |&window| Protocol { transient, window });
     transients.iter().flat_map(after).collect()
 }
 

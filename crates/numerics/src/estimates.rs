@@ -33,7 +33,7 @@ pub fn jackknife(
     realisations: usize,
     statistic: impl Fn(Option<usize>) -> Option<f64>,
 ) -> Option<Estimate> {
-    let without: Option<Vec<f64>> = (0..realisations).map(|out| statistic(Some(out))).collect();
+    let without: Option<Vec<f64>> = (0..realisations).map(|i| statistic(Some(i))).collect();
     let error = standard_error(&without?)? * (realisations as f64 - 1.0);
     Some(with_error(statistic(None)?, error))
 }
@@ -43,8 +43,8 @@ pub fn jackknife(
 pub fn ratio(pairs: &[[f64; 2]]) -> Option<Estimate> {
     let sum = |place: usize| pairs.iter().map(|pair| pair[place]).sum::<f64>();
     let [above, below] = [sum(0), sum(1)];
-    jackknife(pairs.len(), |out| {
-        let [a, b] = out.map_or([0.0; 2], |out| pairs[out]);
+    jackknife(pairs.len(), |left_out| {
+        let [a, b] = left_out.map_or([0.0; 2], |i| pairs[i]);
         (below - b > 0.0).then(|| (above - a) / (below - b))
     })
 }
@@ -54,7 +54,7 @@ mod tests {
     use super::*;
     use crate::random::NormalPairs;
 
-    /// Whether the numbers are those to nine digits.
+    /// Whether an estimate has this value and error, and their normal interval, to nine digits.
     fn near(estimate: Estimate, [value, error]: [f64; 2]) -> bool {
         let half = 1.959_963_985 * error;
         let [low, high] = estimate.interval;
@@ -100,7 +100,7 @@ mod tests {
         assert_eq!((same.value, same.error), (0.5, 0.0));
         // Means of two of {1, 2, 3}.
         let means = [2.5, 2.0, 1.5];
-        let found = jackknife(3, |out| Some(out.map_or(2.0, |out| means[out]))).unwrap();
-        assert!((found.error - (1.0_f64 / 3.0).sqrt()).abs() < 1e-15);
+        let mean = jackknife(3, |left_out| Some(left_out.map_or(2.0, |i| means[i]))).unwrap();
+        assert!((mean.error - (1.0_f64 / 3.0).sqrt()).abs() < 1e-15);
     }
 }

@@ -185,7 +185,7 @@ fn table<'a>(
         .real("engine", "s", 2, "the engine's seconds", |[own, _]| seconds(own.engine()))
 }
 
-/// The counts of all settings at one σ, and those of the engine again.
+/// The counts of all settings at one σ, and the second counts of the engine.
 type Runs<'a> = (&'a Vec<Vec<GapCount>>, &'a Vec<GapCount>);
 
 /// A question about means over chains at some σ.

@@ -11,7 +11,7 @@ pub struct Biases {
     pub parameters: BiasParams,
     /// For each σ and each setting, in their order, the realisations.
     pub runs: Vec<Vec<Vec<GapCount>>>,
-    /// For each σ, those of the engine when all forces are changed by a few roundings.
+    /// For each σ, the realisations of the engine with all forces changed by a few roundings.
     pub again: Vec<Vec<GapCount>>,
 }
 

@@ -33,16 +33,16 @@ pub struct Entry {
     pub runs: Vec<f64>,
     /// Number of exact states from which the next impact was computed.
     pub tried: u64,
-    /// Those of them whose next impact was not found, or not within [`DISPLACED`].
+    /// Number of these states whose next impact was not found, or not within [`DISPLACED`].
     pub misses: u64,
-    /// Median and largest error of its time, of those with the right gap.
+    /// Median and largest error of the time of the next impact, over those with the right gap.
     pub errors: Option<[f64; 2]>,
     /// The largest of these errors in units of ε (d + R₁ + R₂)/|Δ'|.
     pub units: Option<f64>,
 }
 
 impl Entry {
-    /// Returns the mean time of leaving the truth: a lower bound if some did not.
+    /// Returns the mean time at which runs left the truth, a lower bound if some did not leave it.
     pub fn horizon(&self) -> Option<Estimate> {
         mean(&self.runs).map(|mean| with_error(mean, standard_error(&self.runs).unwrap_or(0.0)))
     }

@@ -20,8 +20,8 @@ fn power(number: &str) -> String {
     number.split_once("1e").map_or(number.into(), |(before, e)| format!("{before}10^{{{e}}}"))
 }
 
-/// Returns a method with its steps or tolerances: `sampling, $h = 0.1$; $0.01$`, and its least
-/// rebound speeds.
+/// Returns the title of a method with its steps or tolerances, and then its least rebound speeds:
+/// `sampling, $h = 0.1$; $0.01$`.
 pub fn titled(settings: &[Setting]) -> String {
     let mut title = in_formulas(&settings[0].name());
     for pair in settings.windows(2) {
@@ -95,8 +95,8 @@ impl Compared {
     }
 }
 
-/// Returns what a method and the engine, in the mean of two runs, count in the chains that all ran
-/// to the end, by chain.
+/// Returns the counts of a method and those of the engine (the mean of two runs) for each chain
+/// that all three ran to the end.
 pub fn pairs(run: &[GapCount], ours: [&[GapCount]; 2]) -> Vec<[f64; 2]> {
     let counts = run.iter().zip(ours[0].iter().zip(ours[1]));
     let pair = |(theirs, (first, second)): (&GapCount, (&GapCount, &GapCount))| {
@@ -105,8 +105,8 @@ pub fn pairs(run: &[GapCount], ours: [&[GapCount]; 2]) -> Vec<[f64; 2]> {
     counts.filter_map(pair).collect()
 }
 
-/// Returns the error of the engine's mean, in the mean of two runs, that chaos makes of roundings,
-/// relative to the mean, for so many chains.
+/// Returns the relative error that chaos makes of roundings in the mean count of the engine, for
+/// the mean of two runs of so many chains.
 pub fn own_error(ours: [&[GapCount]; 2], chains: usize) -> f64 {
     let both = pairs(ours[0], [ours[1]; 2]);
     let half: Vec<f64> = both.iter().map(|[first, second]| 0.5 * (first - second)).collect();

@@ -78,7 +78,8 @@ fn fits(lengths: &[&[Pair]]) -> Table {
         .done()
 }
 
-/// Makes the table of the shorter chains less the longer ones, which begin with the same forces.
+/// Makes the table of half heights of the shorter chains less those of the longer ones, which begin
+/// with the same forces.
 fn compared_lengths(lengths: &[&[Pair]]) -> Table {
     const LESS: &str = "that of the shorter chains less that of the longer ones";
     let mut rows: Vec<(&Pair, &Pair)> = Vec::new();

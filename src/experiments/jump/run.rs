@@ -18,7 +18,7 @@ pub struct Jumps {
     pub windows: Vec<WindowJump>,
     /// The jump on rings with our protocol.
     pub ring: WindowJump,
-    /// The place with our protocol when the bulk is smoothed over so many numbers on both sides.
+    /// For several half widths of the smoothing of the bulk, the place with our protocol.
     pub widths: Vec<(usize, Option<Estimate>)>,
 }
 
@@ -36,7 +36,7 @@ impl WindowJump {
     }
 }
 
-/// Numbers on both sides over which the bulk is smoothed, and others that must give the same.
+/// Half widths over which the bulk is smoothed: ours, and those that must give the same place.
 const HALF_WIDTH: usize = 6;
 const HALF_WIDTHS: [usize; 4] = [3, 6, 9, 12];
 

@@ -23,9 +23,9 @@ pub type Part = Vec<Option<Trace>>;
 pub struct ByDistance {
     /// Gaps at each distance from a seed, to both sides.
     pub places: Vec<u64>,
-    /// For the end of each bin, from none on, those that were hit by then, by distance.
+    /// Gaps hit before each bin, and last before the end of the run, by distance.
     pub reached: Vec<Vec<u64>>,
-    /// For each window that fits in, by its first bin, those that were hit in it, by distance.
+    /// Gaps hit in each window that fits into the run, by its first bin, by distance.
     pub active: Vec<Vec<u64>>,
 }
 

@@ -41,7 +41,7 @@ pub(crate) fn root_mean_square(means: &[(f64, f64)], curve: &[(f64, f64)]) -> Op
     (!squares.is_empty()).then(|| (squares.iter().sum::<f64>() / squares.len() as f64).sqrt())
 }
 
-/// Returns the same up to where σ is large.
+/// Returns the root mean square distance of a curve from the means at which σ is not yet large.
 pub(crate) fn distance(means: &[(f64, f64)], curve: &[(f64, f64)]) -> Option<f64> {
     let small = means.iter().copied().filter(|(sigma, _)| *sigma < LARGE_SIGMA);
     root_mean_square(&small.collect::<Vec<_>>(), curve)

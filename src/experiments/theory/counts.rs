@@ -8,7 +8,7 @@ use impact_circuits::graph::Graph;
 use impact_circuits::{commuting, counting, jump};
 use std::f64::consts::LN_10;
 
-/// Lengths down to so many below N are about N (ours: a twentieth of it).
+/// Lengths that are less than N by at most this are about N (ours: a twentieth of N).
 const ABOUT: usize = VERTICES / 20;
 
 /// Gaps of the chain whose simple circuits are enumerated.

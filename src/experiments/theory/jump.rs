@@ -68,7 +68,8 @@ pub fn f(p: f64) -> Vec<(f64, f64)> {
     ks.map(|k| (k, jump::f(VERTICES, p, k))).collect()
 }
 
-/// Returns the zeros of f_{N,p}; at the double of p_crit, whatever side of it it is on, both 1/√p.
+/// Returns the zeros of f_{N,p}; at the double nearest to p_crit both are 1/√p, on whichever side
+/// of p_crit it lies.
 pub fn zeros(p: f64) -> Option<[f64; 2]> {
     if p == known(jump::p_crit(VERTICES)) {
         return Some([1.0 / p.sqrt(); 2]);

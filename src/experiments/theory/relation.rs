@@ -30,6 +30,7 @@ fn smallest_sigma(holds: impl FnMut(f64) -> bool) -> f64 {
     roots::bracket(0.0, 1.0, holds)[1]
 }
 
+/// Returns the σ at which a relation reaches p.
 pub(super) fn reaches(p_of: fn(f64) -> f64, p: f64) -> f64 {
     smallest_sigma(|sigma| p_of(sigma) >= p)
 }
@@ -69,14 +70,16 @@ fn any(p: f64, gaps: usize) -> f64 {
     -pxfm::f_expm1(gaps as f64 * pxfm::f_log1p(-p))
 }
 
-/// Returns the same by Eq. (25), for random free parts, with another p at the walls: an upper
-/// bound, since normal variables make symmetric convex events no less likely together.
+/// Returns the probability that some gap closes by itself by Eq. (25), for random free parts, with
+/// another p at the walls: an upper bound, since normal variables make symmetric convex events no
+/// less likely together.
 fn any_random(sigma: &f64) -> f64 {
     let none = (Chain::default().gaps() - 2) as f64 * pxfm::f_log1p(-p_of(*sigma));
     -pxfm::f_expm1(none + 2.0 * pxfm::f_log1p(-p_of(sigma / SQRT_2)))
 }
 
-/// Returns σ at which such a share of chains from rest has one, as if gaps were independent.
+/// Returns the σ at which a share of the chains from rest has a gap that closes by itself, as if
+/// gaps were independent.
 fn sigma_kept(share: f64) -> f64 {
     smallest_sigma(|sigma| any(p_rest_of(sigma), Chain::default().gaps()) >= share)
 }

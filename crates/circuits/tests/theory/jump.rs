@@ -64,7 +64,7 @@ fn jump_of_a_million_vertices() {
         })
     };
     assert!(!exceeds(leap.bracket[0]) && exceeds(leap.bracket[1]));
-    let falling = (2..=leap.k_after).fold(int(1), |all, k| all * int(big_n + 1 - k));
+    let falling = (2..=leap.k_after).fold(int(1), |product, k| product * int(big_n + 1 - k));
     let log = (int(leap.k_after) / falling).ln();
     assert!(relative_error(leap.p, &exp(log / int(leap.k_after - 1))) < 1e-14);
 }
