@@ -235,7 +235,8 @@ fn mode_rise(e: &Evidence<'_>) -> Judged {
     let [least, .., most] = places[..] else { return Err(Undecided) };
     let printed = places.iter().filter(|place| (from..to).contains(&place.value)).count();
     let all = places.len();
-    let longest = passings_end(e)?;
+    let ends = passings(e)?.into_iter().map(|(protocol, _)| protocol.end());
+    let longest = ends.reduce(f64::max).ok_or(Undecided)?;
     let gaps = e.number("sweep.run.gaps")? as usize;
     let beyond =
         late_curves(e, "protocol")?.into_iter().filter(|curve| curve.protocol.end() > longest);
@@ -248,12 +249,6 @@ fn mode_rise(e: &Evidence<'_>) -> Judged {
     let check = e.check(by_runs([printed, all - printed, all]), numbers)?;
     let Ok(ring) = e.estimate("jump.ring.place") else { return Ok(check) };
     Ok(with_more(check, e.text("note_ring", numbers![ring])?))
-}
-
-/// Returns the end of the latest window in which the jump was measured.
-fn passings_end(e: &Evidence<'_>) -> Result<f64, Error> {
-    let windows = passings(e)?;
-    windows.iter().map(|(protocol, _)| protocol.end()).reduce(f64::max).ok_or(Undecided)
 }
 
 /// Share of impacts that may be called negligible (ours).

@@ -128,8 +128,7 @@ impl Class {
         self.repeats.iter().enumerate().map(|(i, delta)| (i + 1) * delta).sum()
     }
 
-    /// Returns the number of different vertices of circuits of length k, or `None` if k is too
-    /// short.
+    /// Returns the number of different vertices of circuits of length k, `None` if k is too short.
     pub fn different(&self, k: usize) -> Option<usize> {
         let repeated: usize = self.repeats.iter().sum();
         k.checked_sub(self.excess()).filter(|d| *d >= repeated.max(1))

@@ -36,7 +36,7 @@ pub fn race(race: &Race) -> Vec<Table> {
     let methods = race.entries.chunk_by(|a, b| a.setting.method == b.setting.method);
     let (coarsest, finest): (Vec<&Entry>, Vec<&Entry>) =
         methods.map(|entries| (&entries[0], &entries[entries.len() - 1])).unzip();
-    vec![entries("race.coarsest", &coarsest), entries("race.finest", &finest), summary(race)]
+    vec![entries("race.coarsest", &coarsest), entries("race.finest", &finest), all(race)]
 }
 
 fn entries(name: &'static str, entries: &[&Entry]) -> Table {
@@ -52,7 +52,7 @@ fn entries(name: &'static str, entries: &[&Entry]) -> Table {
         .done()
 }
 
-fn summary(race: &Race) -> Table {
+fn all(race: &Race) -> Table {
     let tried = race.entries.iter().map(|entry| entry.tried).max().unwrap_or(0);
     // ln of a displacement over the rounding of one.
     let folds = pxfm::f_log(DISPLACED / (f64::EPSILON / 2.0));

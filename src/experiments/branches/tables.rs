@@ -13,7 +13,7 @@ pub fn tables(chains: &Vec<Chains>) -> Vec<Table> {
         fits(&lengths),
         compared_lengths(&lengths),
         shares(&pairs),
-        summary(chains, &pairs),
+        all(chains, &pairs),
     ]
 }
 
@@ -126,7 +126,7 @@ fn shares(pairs: &[Pair]) -> Table {
         .done()
 }
 
-fn summary(ensembles: &[Chains], pairs: &[Pair]) -> Table {
+fn all(ensembles: &[Chains], pairs: &[Pair]) -> Table {
     let heated = ensembles.iter().find_map(|one| one.ensemble.heating);
     let above = ensembles.iter().filter(|one| one.ensemble.heating.is_some());
     let counts = above.flat_map(|one| one.counts.iter().flatten().flatten());

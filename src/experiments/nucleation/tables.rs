@@ -31,7 +31,7 @@ pub fn tables(nucleation: &Nucleation) -> Vec<Table> {
         shares(&lengths, &nucleation.curve),
         times(&parameters.times, gaps),
         chains_table(&chains),
-        summary(&chains, &lengths, nucleation.half),
+        all(&chains, &lengths, nucleation.half),
     ]
 }
 
@@ -83,7 +83,7 @@ fn chains_table(rows: &[Chains]) -> Table {
         .done()
 }
 
-fn summary(chains: &[Chains], lengths: &[usize], half: f64) -> Table {
+fn all(chains: &[Chains], lengths: &[usize], half: f64) -> Table {
     const OFF: &str = "largest distance of found and expected shares by then";
     let shortest = lengths.iter().copied().min().unwrap_or(0);
     let last = chains.last().map(|row| row.time);
