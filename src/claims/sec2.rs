@@ -229,8 +229,8 @@ fn mode_rise(e: &Evidence<'_>) -> Judged {
     let row = format!("jump.windows[transient={transient},window={window}]");
     let place = e.estimate(&format!("{row}.place"))?;
     let [from, to] = e.statement.interval()?;
-    let passings = passings(e)?.into_iter().filter(|(_, passing)| passing.is_jump() == Some(true));
-    let mut places: Vec<Estimate> = passings.filter_map(|(_, passing)| passing.sigma).collect();
+    let jumps = passings(e)?.into_iter().filter(|(_, passing)| passing.is_jump() == Some(true));
+    let mut places: Vec<Estimate> = jumps.filter_map(|(_, passing)| passing.sigma).collect();
     places.sort_by(|a, b| a.value.total_cmp(&b.value));
     let [least, .., most] = places[..] else { return Err(Undecided) };
     let printed = places.iter().filter(|place| (from..to).contains(&place.value)).count();
