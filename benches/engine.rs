@@ -38,7 +38,7 @@ fn impacts(bencher: Bencher, masses: usize) {
 #[divan::bench(args = [0.09, 0.11, 0.14, 0.2, 0.3], consts = [false, true])]
 fn counted<const TOGETHER: bool>(bencher: Bencher, sigma: f64) {
     let ensemble = Ensemble { stream: "sweep".into(), ..Ensemble::default() };
-    let counts = || ensemble.at(sigma).count(0..16, &|| false).expect("the chain is allowed");
+    let counts = || ensemble.prepare(sigma).count(0..16, &|| false).expect("the chain is allowed");
     let scenarios: Vec<Scenario> = (0..16)
         .map(|i| Scenario::draw(&ensemble.chain, sigma, &mut NormalPairs::new("sweep", 2007, i)))
         .collect();

@@ -94,8 +94,11 @@ struct Row<'a> {
     protocol: Protocol,
 }
 
-/// The columns: name, meaning, and the cell of a row; a missing number is an empty cell.
-const COLUMNS: [(&str, &str, fn(&Row) -> String); 18] = [
+/// Writes the cell of a row; a missing number is an empty cell.
+type Cell = fn(&Row) -> String;
+
+/// The columns: name, meaning and cells.
+const COLUMNS: [(&str, &str, Cell); 18] = [
     ("sigma", "standard deviation of the amplitudes", |row| shortest(row.point.sigma)),
     ("realisations", "chains drawn", |row| row.ensemble.realisations.to_string()),
     ("kept", "those with an impact in the window", |row| row.point.kept.to_string()),
