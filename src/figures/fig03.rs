@@ -21,7 +21,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         .filter_map(|row| row.mean?.interval.map(|[low, high]| (row.sigma, low, high)));
     let intervals: Vec<_> = intervals.collect();
     panel.bars("mean of those with an impact", &intervals, 0, INTERVAL)?;
-    printed(&panel, comparison::at(&means, printed_threshold()).unwrap_or(0.0))?;
+    printed(&panel, comparison::interpolate(&means, printed_threshold()).unwrap_or(0.0))?;
     panel.curve("mean of all", &all, Stroke::dashed(GREY, LINE, SHORT))?;
     panel.markers("mean of those with an impact", &means, CROSSES)?;
     panel.label("mean of those with an impact", (panel.x.hi, n as f64), (-1, 3), RED)?;

@@ -5,7 +5,7 @@ use super::simulated::{FORCING, count_axis};
 use crate::experiments::Results;
 use crate::experiments::ensembles::Counted;
 use crate::experiments::sweep;
-use crate::experiments::theory::comparison::at;
+use crate::experiments::theory::comparison::interpolate;
 use crate::params::printed_threshold;
 use literate::table::Table;
 
@@ -45,7 +45,7 @@ fn counts(sheet: &Sheet, means: &Table, theory: &Table, sweep: &Counted) -> Draw
         curve.retain(|(sigma, _)| *sigma >= SIGMAS.0 && *sigma <= SIGMAS.1);
         panel.curve(name, &curve, stroke)?;
         let rising: Vec<_> = curve.into_iter().map(|(sigma, mean)| (mean, sigma)).collect();
-        let place = (at(&rising, height).unwrap_or(SIGMAS.0), height);
+        let place = (interpolate(&rising, height).unwrap_or(SIGMAS.0), height);
         panel.label(name, place, (-2, 0), stroke.colour)?;
     }
     let grown = means.series(&transient, "sigma", "grown")?;

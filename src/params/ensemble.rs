@@ -40,7 +40,7 @@ pub struct Ensemble {
     pub first: u64,
     pub realisations: usize,
     pub beyond: Option<Beyond>,
-    /// Share of overlapping starts above which a σ has no part in the places of the rise.
+    /// Share of overlapping starts above which the row of a σ does not count for the rise.
     pub most_rejected: f64,
     /// Pieces of about equal length of a chain, of which each is counted like a realisation.
     pub pieces: usize,
@@ -68,6 +68,7 @@ impl Default for Ensemble {
 }
 
 impl Ensemble {
+    /// Returns the number of realisations at a σ.
     pub fn realisations_at(&self, sigma: f64) -> usize {
         self.beyond(sigma).and_then(|less| less.realisations).unwrap_or(self.realisations)
     }
@@ -82,8 +83,8 @@ impl Ensemble {
         self.beyond.filter(|less| sigma > less.above)
     }
 
-    /// Whether so few of these starts at a σ overlap that it has a part in the places of the rise.
-    pub fn compares(&self, sigma: f64, rejected: usize) -> bool {
+    /// Whether so few starts at a σ were rejected for overlap that its row counts for the rise.
+    pub fn is_comparable(&self, sigma: f64, rejected: usize) -> bool {
         rejected as f64 <= self.most_rejected * self.realisations_at(sigma) as f64
     }
 
@@ -99,8 +100,8 @@ impl Ensemble {
         (self.chain.masses as f64 * (1.0 + impacts)) as u64
     }
 
-    /// Prepares its realisations at a σ.
-    pub fn at(&self, sigma: f64) -> Realisations<'_> {
+    /// Prepares the simulation of its realisations at a σ.
+    pub fn prepare(&self, sigma: f64) -> Realisations<'_> {
         let heating = self.heating.map(|heating| Abreast::new(&self.chain, &[], heating.time));
         let counting = Abreast::new(&self.chain, &self.protocols, self.until(sigma));
         Realisations { ensemble: self, sigma, heating, counting }
@@ -114,23 +115,24 @@ impl Ensemble {
         stopped: &dyn Fn() -> bool,
     ) -> Result<Counts, Error> {
         let mut watch = Watch::new(&self.chain, &self.protocols);
-        let engine = self.started(sigma, index, stopped);
+        let engine = self.start_engine(sigma, index, stopped);
         let mut counts = watch.run(engine, index, self.until(sigma), stopped)?;
-        self.cut_all(&mut counts, |window| watch.hit(window));
+        self.count_pieces(&mut counts, |window| watch.hit(window));
         Ok(counts)
     }
 
-    /// Counts the gaps of each piece in each window, instead of those of the chain.
-    fn cut_all(&self, counts: &mut Counts, hit: impl Fn(&Protocol) -> Option<Vec<bool>>) {
+    /// Replaces the counts of the chain in each window by those of its pieces.
+    fn count_pieces(&self, counts: &mut Counts, hit: impl Fn(&Protocol) -> Option<Vec<bool>>) {
         for (distinct, window) in counts.distinct.iter_mut().zip(&self.protocols) {
             *distinct = match hit(window).filter(|_| distinct[0].is_some()) {
-                Some(hit) => self.cut(&hit),
+                Some(hit) => self.piece_counts(&hit),
                 None => vec![None; self.pieces],
             };
         }
     }
 
-    fn cut(&self, hit: &[bool]) -> Vec<Option<u32>> {
+    /// Counts the gaps with an impact in each piece.
+    fn piece_counts(&self, hit: &[bool]) -> Vec<Option<u32>> {
         let ends = |piece| piece * hit.len() / self.pieces;
         let count = |piece| hit[ends(piece)..ends(piece + 1)].iter().map(|&hit| u32::from(hit));
         (0..self.pieces).map(|piece| Some(count(piece).sum())).collect()
@@ -141,7 +143,12 @@ impl Ensemble {
     }
 
     /// Returns an engine at the time from which transients are measured.
-    fn started(&self, sigma: f64, index: u64, stopped: &dyn Fn() -> bool) -> Result<Engine, Error> {
+    fn start_engine(
+        &self,
+        sigma: f64,
+        index: u64,
+        stopped: &dyn Fn() -> bool,
+    ) -> Result<Engine, Error> {
         let Some(Heating { sigma: hot, time }) = self.heating else {
             return Engine::new(&Scenario::draw(&self.chain, sigma, &mut self.normals(index)));
         };
@@ -152,7 +159,7 @@ impl Ensemble {
     }
 }
 
-/// Realisations at one σ, which are simulated side by side; the engine does those that cannot.
+/// Realisations at one σ, which are simulated side by side, or else one by one by the engine.
 pub struct Realisations<'a> {
     ensemble: &'a Ensemble,
     sigma: f64,
@@ -177,18 +184,18 @@ impl Realisations<'_> {
             for (place, run) in places.into_iter().zip(counting.run(&starts, stopped)) {
                 counts[place] = run.map(|mut run| {
                     let mut counts = run.counts();
-                    one.cut_all(&mut counts, |window| run.hit(window));
+                    one.count_pieces(&mut counts, |window| run.hit(window));
                     counts
                 });
             }
         }
         let by_engine = |index| one.by_engine(self.sigma, index, stopped);
-        let all = indices.into_iter().zip(counts);
-        all.map(|(index, counts)| counts.map_or_else(|| by_engine(index), Ok)).collect()
+        let runs = indices.into_iter().zip(counts);
+        runs.map(|(index, counts)| counts.map_or_else(|| by_engine(index), Ok)).collect()
     }
 
-    /// Lists the scenarios from which transients are measured, each with its place; without those
-    /// whose way there has to be simulated by the engine.
+    /// Lists the scenarios at the time from which transients are measured, each with the place of
+    /// its realisation; those whose heating only the engine can simulate are left out.
     fn starts(&self, indices: &[u64], stopped: &dyn Fn() -> bool) -> Vec<(usize, Scenario)> {
         let one = self.ensemble;
         let draw = |sigma, index: &u64| Scenario::draw(&one.chain, sigma, &mut one.normals(*index));
@@ -206,8 +213,9 @@ impl Realisations<'_> {
     }
 }
 
-/// Returns the continuation from `time` when forces change by `factor`: phases advance by it, and
-/// `free` takes up the change of the forced response, so that the motion is continuous.
+/// Returns the scenario that continues a motion from `time` with all forces multiplied by `factor`:
+/// the phases of the forces advance by `time`, and the free parts take up the change of the forced
+/// response, so that positions and velocities are continuous.
 pub fn lowered(scenario: &Scenario, free: &[[f64; 2]], time: f64, factor: f64) -> Scenario {
     let (omega, frequency) = (scenario.natural_frequency, scenario.forcing_frequency);
     let mut parts = advanced(free, omega * time);
@@ -221,6 +229,7 @@ pub fn lowered(scenario: &Scenario, free: &[[f64; 2]], time: f64, factor: f64) -
     Scenario { initial: Initial::Free(parts), forcing, ..scenario.clone() }
 }
 
+/// Returns pairs of cosine and sine amplitudes with their phases advanced by an angle.
 fn advanced(pairs: &[[f64; 2]], angle: f64) -> Vec<[f64; 2]> {
     let (sin, cos) = pxfm::f_sincos(angle);
     pairs.iter().map(|[a, b]| [a * cos + b * sin, b * cos - a * sin]).collect()

@@ -192,7 +192,7 @@ fn the_promise_of_the_engine_follows_the_numbers() {
     let worse: [fn(&mut Results); 4] = [
         |results| results.of_mut(&RACE).unwrap().entries[0].misses += 1,
         |results| results.of_mut(&RACE).unwrap().entries[0].units = Some(9.0),
-        |results| results.of_mut(&TRIALS).unwrap().found[0][0][0] = Missed,
+        |results| results.of_mut(&TRIALS).unwrap().trials[0][0][0] = Missed,
         |results| {
             let ours = |m: MethodName| m == MethodName::Certified;
             let scale = results.of_mut(&SCALE).unwrap();
@@ -216,8 +216,8 @@ fn the_page_has_each_run_with_its_digest_and_the_module() {
     let protocols = data["protocols"].as_array().unwrap();
     assert_eq!(protocols.len(), QUICK.results.of(&PROTOCOL).unwrap()[0].curves.len());
     let replays = QUICK.results.of(&REPLAY).unwrap();
-    assert_eq!(data["runs"].as_array().unwrap().len(), replays.found.len());
-    for (i, found) in replays.found.iter().enumerate() {
+    assert_eq!(data["runs"].as_array().unwrap().len(), replays.results.len());
+    for (i, found) in replays.results.iter().enumerate() {
         assert_eq!(data["runs"][i]["found"]["digest"], found.digest.as_str());
         let asked = serde_json::from_value(data["runs"][i]["asked"].clone());
         let asked: impact_paper::experiments::replay::Request = asked.unwrap();

@@ -10,25 +10,27 @@ use std::collections::BTreeSet;
 
 /// Counts, by enumeration, simple circuits on `big_n` gaps, and classes that exchanges connect.
 pub fn simple_classes(big_n: usize) -> [usize; 2] {
-    let all = Graph::of_chain(big_n - 1).circuits(big_n);
-    let mut left: BTreeSet<Circuit> = all.filter(|circuit| circuit.repeats().is_empty()).collect();
-    let (circuits, mut classes) = (left.len(), 0);
-    while let Some(circuit) = left.pop_first() {
+    let circuits = Graph::of_chain(big_n - 1).circuits(big_n);
+    let mut unclassed: BTreeSet<Circuit> =
+        circuits.filter(|circuit| circuit.repeats().is_empty()).collect();
+    let (simple, mut classes) = (unclassed.len(), 0);
+    while let Some(circuit) = unclassed.pop_first() {
         classes += 1;
         let mut reached = vec![circuit];
         while let Some(circuit) = reached.pop() {
-            reached.extend(exchanged(circuit.word()).filter(|other| left.remove(other)));
+            reached.extend(exchanged(circuit.word()).filter(|other| unclassed.remove(other)));
         }
     }
-    [circuits, classes]
+    [simple, classes]
 }
 
+/// Lists the circuits that follow from one exchange of neighbours without a common mass.
 fn exchanged(word: &[usize]) -> impl Iterator<Item = Circuit> + '_ {
-    let after = |at: usize| (at + 1) % word.len();
-    let free = move |at: &usize| word[*at].abs_diff(word[after(*at)]) > 1;
-    (0..word.len()).filter(free).map(move |at| {
+    let after = |place: usize| (place + 1) % word.len();
+    let commutes = move |place: &usize| word[*place].abs_diff(word[after(*place)]) > 1;
+    (0..word.len()).filter(commutes).map(move |place| {
         let mut other = word.to_vec();
-        other.swap(at, after(at));
+        other.swap(place, after(place));
         Circuit::new(other)
     })
 }

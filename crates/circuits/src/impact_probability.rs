@@ -19,7 +19,7 @@
 //!
 //! p_rest = (2/π) ∫_0^{π/2} exp(−(|ω² − Ω²| d/(2σ))²/(1 + √(cos²θ + (Ω/ω)² sin²θ))²) dθ.
 
-use crate::error::{Error, refused, within};
+use crate::error::{Error, check_range, refused};
 use impact_chain::Chain;
 use impact_numerics::double_double::DoubleDouble;
 use impact_numerics::quadrature::GaussLegendre;
@@ -92,11 +92,11 @@ const NEARLY_ONE: f64 = 0.01;
 impl ImpactProbability {
     /// Creates the law of masses d = `spacing` apart, with frequencies ω and `forcing` = Ω ≠ ω.
     pub fn new(sigma: f64, spacing: f64, omega: f64, forcing: f64) -> Result<Self, Error> {
-        within("sigma", sigma, 1e-300, 1e6)?;
+        check_range("sigma", sigma, 1e-300, 1e6)?;
         // The ranges of a scenario.
-        within("spacing", spacing, 1e-6, 1e6)?;
-        within("omega", omega, 1e-3, 1e3)?;
-        within("forcing-frequency", forcing, 1e-3, 1e3)?;
+        check_range("spacing", spacing, 1e-6, 1e6)?;
+        check_range("omega", omega, 1e-3, 1e3)?;
+        check_range("forcing-frequency", forcing, 1e-3, 1e3)?;
         // Both squares are exact to 106 bits.
         let difference = squared(omega) - squared(forcing);
         let detuning = if difference.hi < 0.0 { -difference } else { difference };

@@ -23,10 +23,12 @@ pub fn generator(experiment: &str, seed: u64, index: u64) -> Pcg64Dxsm {
 }
 
 impl NormalPairs {
+    /// Creates the stream of one realisation of an experiment under a master seed.
     pub fn new(experiment: &str, seed: u64, realisation: u64) -> Self {
         NormalPairs(generator(experiment, seed, realisation))
     }
 
+    /// Draws the next pair.
     pub fn pair(&mut self) -> [f64; 2] {
         loop {
             let [x, y]: [f64; 2] = UnitDisc.sample(&mut self.0);

@@ -1,6 +1,6 @@
 //! Describes the options of the verb `trace`.
 
-use super::super::range::{Times, times, within};
+use super::super::range::{Times, number, times};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use impact_chain::LATEST;
 use impact_paper::params::MethodName::{self, *};
@@ -48,7 +48,7 @@ pub struct Args {
     #[arg(value_name = "SCENARIO.json")]
     pub(super) scenario: PathBuf,
     /// Stop at this time.
-    #[arg(long, value_name = "T", value_parser = within(0.0, LATEST), allow_hyphen_values = true,
+    #[arg(long, value_name = "T", value_parser = number(0.0, LATEST), allow_hyphen_values = true,
         required_unless_present = "at")]
     pub(super) until: Option<f64>,
     /// Print time, mass, position and velocity at these times up to --until instead: a rising list,

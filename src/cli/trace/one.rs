@@ -163,7 +163,7 @@ impl Job {
     ) -> Result<Cost, Error> {
         let mut left = self.args.max_impacts.unwrap_or(u64::MAX);
         let until = if left == 0 { start.time } else { self.args.until.unwrap_or_default() };
-        let method = self.args.method.with(self.setting, 0.0);
+        let method = self.args.method.with_setting(self.setting, 0.0);
         method.run((scenario, start, until), &mut |Impact { time, gap, closing_speed }| {
             self.note_time(time);
             if left > 0 {

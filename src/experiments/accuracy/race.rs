@@ -33,16 +33,16 @@ pub struct Entry {
     pub runs: Vec<f64>,
     /// Number of exact states from which the next impact was computed.
     pub tried: u64,
-    /// Those of them whose next impact was not found, or not within [`DISPLACED`].
+    /// Number of these states whose next impact was not found, or not within [`DISPLACED`].
     pub misses: u64,
-    /// Median and largest error of its time, of those with the right gap.
+    /// Median and largest error of the time of the next impact, over those with the right gap.
     pub errors: Option<[f64; 2]>,
     /// The largest of these errors in units of ε (d + R₁ + R₂)/|Δ'|.
     pub units: Option<f64>,
 }
 
 impl Entry {
-    /// Returns the mean time of leaving the truth: a lower bound if some did not.
+    /// Returns the mean time at which runs left the truth, a lower bound if some did not leave it.
     pub fn horizon(&self) -> Option<Estimate> {
         mean(&self.runs).map(|mean| with_error(mean, standard_error(&self.runs).unwrap_or(0.0)))
     }
@@ -56,7 +56,7 @@ struct Course {
 pub fn run(parameters: &RaceParams, progress: &Progress) -> Result<Race, Error> {
     let growth = horizon::run(&parameters.growth, progress)?;
     let stage = progress.stage("true motions", parameters.chains as u64);
-    let courses = each(&stage, progress, 0..parameters.chains as u64, |index| {
+    let courses = run_each(&stage, progress, 0..parameters.chains as u64, |index| {
         let scenario = parameters.growth.scenario(index);
         let hits = TrueMotion::of(&scenario, &State::of(&scenario)).run(parameters.until);
         Ok(Course { scenario, hits: hits.map_err(|source| Error::failed("race", source))? })
@@ -64,7 +64,7 @@ pub fn run(parameters: &RaceParams, progress: &Progress) -> Result<Race, Error> 
     let targets = targets(parameters.segments, &courses);
     let targets = targets.map_err(|source| Error::failed("race", source))?;
     let stage = progress.stage("methods against the truth", parameters.settings.len() as u64);
-    let entries = each(&stage, progress, &parameters.settings, |setting| {
+    let entries = run_each(&stage, progress, &parameters.settings, |setting| {
         entry(parameters, *setting, &courses, &targets, progress)
     })?;
     Ok(Race { parameters: parameters.clone(), growth, entries })

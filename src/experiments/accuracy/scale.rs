@@ -18,7 +18,7 @@ pub fn run(parameters: &ScaleParams, progress: &Progress) -> Result<Scale, Error
     };
     cases.retain(|(setting, masses)| ours(*setting) || *masses <= parameters.rivals);
     let stage = progress.stage("work against size", cases.len() as u64);
-    each(&stage, progress, cases, |(setting, masses)| {
+    run_each(&stage, progress, cases, |(setting, masses)| {
         let chain = Chain { masses, ..Chain::default() };
         let mut normals = NormalPairs::new(BENCH.0, BENCH.1, 0);
         let scenario = Scenario::draw(&chain, parameters.sigma, &mut normals);

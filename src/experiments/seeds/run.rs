@@ -32,7 +32,7 @@ pub fn run(parameters: &SeedsParams, progress: &Progress) -> Result<Seeds, Error
     let stage = progress.stage("seeds", chains as u64);
     let rows = parameters.sigmas.iter().map(|&sigma| {
         let one = |index| trace(parameters, sigma, index, progress);
-        each(&stage, progress, 0..parameters.realisations as u64, one)
+        run_each(&stage, progress, 0..parameters.realisations as u64, one)
     });
     Ok(Seeds::new(parameters.clone(), rows.collect::<Result<_, _>>()?))
 }
@@ -45,7 +45,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Returns the amplitudes of the chain, and that gap.
+    /// Draws until such a chain is found, and returns its amplitudes and that gap.
     fn chain(&mut self) -> (Vec<[f64; 2]>, usize) {
         let n = self.chain.masses;
         loop {
@@ -61,16 +61,16 @@ impl Search<'_> {
     ///
     /// Both halves are drawn in this way, until it holds for the whole. The result is distributed
     /// as if whole chains had been drawn and rejected, which would take a hundred thousand of them.
-    fn part(&mut self, of: Range<usize>, bodies: &mut Vec<[f64; 2]>) -> Option<usize> {
-        let (middle, begin) = (of.start.midpoint(of.end), bodies.len());
-        if of.len() == 1 {
-            bodies.push(self.body(of.start));
+    fn part(&mut self, range: Range<usize>, bodies: &mut Vec<[f64; 2]>) -> Option<usize> {
+        let (middle, begin) = (range.start.midpoint(range.end), bodies.len());
+        if range.len() == 1 {
+            bodies.push(self.body(range.start));
             return None;
         }
         loop {
-            let left = self.part(of.start..middle, bodies);
-            let right = self.part(middle..of.end, bodies);
-            let last = begin + middle - of.start;
+            let left = self.part(range.start..middle, bodies);
+            let right = self.part(middle..range.end, bodies);
+            let last = begin + middle - range.start;
             let least = closing_pull(self.chain);
             let closes = pulls(self.chain, &bodies[last - 1..=last]).any(|pull| pull >= least);
             let between = closes.then_some(middle - 1);
@@ -83,10 +83,10 @@ impl Search<'_> {
         }
     }
 
-    /// Returns the amplitude of a body, none for a wall.
+    /// Returns the amplitudes of the force on a body; those on a wall are zero.
     fn body(&mut self, body: usize) -> [f64; 2] {
-        let wall = body == 0 || body > self.chain.masses;
-        if wall { [0.0; 2] } else { self.normals.pair().map(|x| self.sigma * x) }
+        let is_wall = body == 0 || body > self.chain.masses;
+        if is_wall { [0.0; 2] } else { self.normals.pair().map(|x| self.sigma * x) }
     }
 }
 
