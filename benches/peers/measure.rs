@@ -4,7 +4,7 @@
 //! Chain i of n masses starts from rest; its forcing is drawn from stream i of the seed.
 
 use clap::Parser;
-use impact_chain::methods::{Certified, Method, VerletAbreast};
+use impact_chain::methods::{Certified, Method, Task, VerletAbreast};
 use impact_chain::{Abreast, without_wide_vectors};
 use impact_chain::{Counters, Engine, Error, Protocol, Scenario, State};
 use impact_numerics::random::NormalPairs;
@@ -259,7 +259,7 @@ fn once(case: &Case, method: &dyn Method, scenarios: &[Scenario]) -> Result<u64,
     let Case { runs, window, first, .. } = case;
     let from = window.map_or(f64::INFINITY, |window| window.transient);
     let alone = |scenario: &Scenario| {
-        let task = (scenario, &State::of(scenario), runs.until);
+        let task = Task { scenario, start: &State::of(scenario), until: runs.until };
         // A run that the method gives up counts with the time that it took.
         match method.run(task, &mut |impact| !(*first && impact.time > from)) {
             Err(Error::Work { .. }) => Ok(0),

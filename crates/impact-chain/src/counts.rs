@@ -4,7 +4,7 @@
 
 use crate::search::outcome::Graze;
 use crate::topology::Topology;
-use crate::{Chain, End, Engine, Error, Event, Impact, LATEST, within};
+use crate::{Chain, End, Engine, Error, Event, Impact, LATEST, check_range};
 #[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow::{Break, Continue};
@@ -169,10 +169,10 @@ impl Watch {
     /// # Errors
     /// [`Error::Input`] for windows that end after [`LATEST`], and for an end that is no number.
     pub(crate) fn begin(&mut self, until: f64) -> Result<Option<f64>, Error> {
-        within("until", until, f64::NEG_INFINITY, f64::INFINITY)?;
+        check_range("until", until, f64::NEG_INFINITY, f64::INFINITY)?;
         let ends = self.windows.iter().map(Protocol::end);
         self.edges = rising(self.transients.iter().copied().chain(ends));
-        self.edges.iter().try_for_each(|&edge| within("windows", edge, -LATEST, LATEST))?;
+        self.edges.iter().try_for_each(|&edge| check_range("windows", edge, -LATEST, LATEST))?;
         self.edges.retain(|edge| *edge <= until);
         self.passed.clear();
         self.total = Total::default();

@@ -13,7 +13,7 @@ use super::impact::Impact;
 use super::simulation::{Awaits, Gap, Simulation, Waiting, clamp_width};
 use super::state::AT_REST;
 use super::topology::Topology;
-use super::{Error, Event, Scenario, within};
+use super::{Error, Event, Scenario, check_range};
 use crate::search::clock::{Instant, LATEST};
 use crate::search::earliest::Earliest;
 use crate::search::first_root::Search;
@@ -99,7 +99,8 @@ impl<const M: usize> Simulation<M> {
         for k in 0..self.gaps.len() {
             let frame = self.frame_of(k, &phases);
             if frame.f0 < -OVERLAP * frame.size {
-                return Err(Error::Overlap { gap: self.topology.label(k), depth: -frame.f0 });
+                let (field, gap) = ("initial".to_string(), self.topology.label(k));
+                return Err(Error::Overlap { field, gap, depth: -frame.f0 });
             }
             self.gaps[k].frame = frame;
             let [width, rate] = self.rounding_at_start(k, &phases);
@@ -136,9 +137,9 @@ impl<const M: usize> Simulation<M> {
         [SHUT_AT_START * width, AT_REST * fastest + AT_REST_OF_TERMS * rate]
     }
 
-    /// Returns the last instant of the run whose time is `until`.
+    /// Returns the last instant of the run whose time is `until`, not before the last event.
     pub fn end(&self, until: f64) -> Result<Instant, Error> {
-        within("until", until, -LATEST, LATEST)?;
+        check_range("until", until, self.event_time, LATEST)?;
         Ok(Instant::last_at(until).shifted(self.zero))
     }
 

@@ -64,7 +64,7 @@ pub use chain::{Boundary, Chain, Start};
 #[cfg(feature = "ensembles")]
 pub use counts::{Counts, Protocol, Watch};
 pub use engine::Engine;
-use error::within;
+use error::check_range;
 pub use error::{Error, ErrorKind};
 pub use event::{End, Event};
 pub use impact::Impact;

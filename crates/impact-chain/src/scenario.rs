@@ -1,6 +1,6 @@
 //! Defines a scenario: one chain, its forcing and its start.
 
-use crate::error::{Error, pairs_within};
+use crate::error::{Error, check_pairs};
 use crate::flight::response;
 use crate::{Boundary, Chain, Start};
 #[cfg(feature = "random")]
@@ -67,7 +67,7 @@ impl Scenario {
     /// start, the n pairs of the free part.
     #[cfg(feature = "random")]
     pub fn draw(chain: &Chain, sigma: f64, normals: &mut NormalPairs) -> Scenario {
-        let mut scenario = Scenario::of(chain, draw_pairs(chain.masses, sigma, normals));
+        let mut scenario = Scenario::with_forcing(chain, draw_pairs(chain.masses, sigma, normals));
         if chain.start == Start::Random {
             scenario.initial = Initial::Free(draw_pairs(chain.masses, sigma, normals));
         }
@@ -76,12 +76,17 @@ impl Scenario {
 
     /// Creates the scenario of a chain with given amplitudes, one pair for each mass;
     /// [`Start::Random`] is taken as [`Start::Zero`], as there are no random numbers.
+    ///
+    /// # Errors
+    /// Those of [`Scenario::validate`].
     pub fn given(chain: &Chain, forcing: Vec<[f64; 2]>) -> Result<Scenario, Error> {
-        pairs_within("forcing", &forcing, chain.masses)?;
-        Ok(Scenario::of(chain, forcing))
+        check_pairs("forcing", &forcing, chain.masses)?;
+        let scenario = Scenario::with_forcing(chain, forcing);
+        scenario.validate()?;
+        Ok(scenario)
     }
 
-    fn of(chain: &Chain, forcing: Vec<[f64; 2]>) -> Scenario {
+    fn with_forcing(chain: &Chain, forcing: Vec<[f64; 2]>) -> Scenario {
         let initial = match chain.start {
             Start::Rest => Initial::Rest,
             Start::Zero | Start::Random => Initial::Free(vec![[0.0; 2]; forcing.len()]),

@@ -1,6 +1,6 @@
 //! Reads a scenario from JSON, and writes one.
 
-use crate::error::{Error, within};
+use crate::error::{Error, check_range};
 use crate::scenario::{COMPONENTS, Initial, Overtone, Scenario, draw_pairs};
 use crate::state::State;
 use crate::{Boundary, Chain, Engine};
@@ -176,6 +176,9 @@ fn parse(text: &str) -> Result<ScenarioFile, Error> {
             "" => "unnamed field",
             named => named,
         };
+        if is_not_finite(text, error.inner()) {
+            return Error::input(field, "it is not finite", "give a finite number");
+        }
         let problem = error.inner().to_string();
         let unknown = problem.strip_prefix("unknown field `");
         let name = unknown.and_then(|rest| rest.split('`').next()).unwrap_or_default();
@@ -189,6 +192,13 @@ fn parse(text: &str) -> Result<ScenarioFile, Error> {
         Error::input("scenario", error.to_string(), remedy)
     })?;
     Ok(file)
+}
+
+/// Whether JSON could not be read because of NaN or an infinity, for which it has no number.
+fn is_not_finite(text: &str, error: &serde_json::Error) -> bool {
+    let line = text.lines().nth(error.line().saturating_sub(1)).unwrap_or_default();
+    let rest = line.get(error.column().saturating_sub(1)..).unwrap_or_default();
+    error.is_syntax() && ["NaN", "Infinity"].iter().any(|name| rest.starts_with(name))
 }
 
 impl ScenarioFile {
@@ -211,7 +221,7 @@ impl ScenarioFile {
                 zero
             }
             Start::Random { sigma, seed } => {
-                within("initial.random.sigma", sigma, 0.0, 1e9)?;
+                check_range("initial.random.sigma", sigma, 0.0, 1e9)?;
                 let mut normals = NormalPairs::new("trace", seed, 0);
                 Initial::Free(draw_pairs(masses, sigma, &mut normals))
             }
@@ -230,13 +240,13 @@ impl ScenarioFile {
             places: places(masses, self.spacing, self.places, self.walls)?,
         };
         let Some(state) = state else { return Ok(scenario) };
-        state.as_scenario(&scenario).map_err(|error| match error {
-            Error::Input { field, problem, remedy }
-                if ["positions", "velocities"].contains(&field.as_str()) =>
+        state.as_scenario(&scenario).map_err(|mut error| {
+            if let Error::Input { field, .. } | Error::Overlap { field, .. } = &mut error
+                && (field.starts_with("positions") || field.starts_with("velocities"))
             {
-                Error::input(format!("initial.at.{field}"), problem, remedy)
+                field.insert_str(0, "initial.at.");
             }
-            error => error,
+            error
         })
     }
 }
@@ -257,7 +267,7 @@ fn places(
         return Err(Error::input("places", problem, "give one for each mass"));
     }
     for wall in walls.into_iter().flatten() {
-        within("walls", wall, -1e9, 1e9)?;
+        check_range("walls", wall, -1e9, 1e9)?;
     }
     let [left, right] = walls.unwrap_or([0.0, (masses + 1) as f64 * spacing]);
     Ok(Some([vec![left], places, vec![right]].concat()))

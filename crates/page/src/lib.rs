@@ -171,7 +171,7 @@ pub extern "C" fn follow(time: f64) -> u32 {
         let engine = &mut page.run.as_mut().ok_or("nothing is open")?.engine;
         let message = |error: impact_chain::Error| error.to_string();
         let impacts = engine.impacts(time).map_err(message)?;
-        page.numbers = engine.positions(time).map_err(message)?;
+        page.numbers = engine.state(time).map_err(message)?.positions;
         page.numbers.push(impacts.len() as f64);
         page.numbers.extend(impacts.iter().map(|impact| impact.gap as f64));
         Ok(false)

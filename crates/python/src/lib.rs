@@ -4,11 +4,12 @@ use impact_chain::{
     Abreast, Chain, Engine, Error, ErrorKind, Event, Impact, NormalPairs, Protocol, State, Watch,
 };
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
-use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use pyo3::exceptions::{PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict, PyList};
 use rayon::prelude::*;
 use serde_json::{Map, Value, from_str, from_value, to_value};
+use std::fmt::Display;
 use std::ops::ControlFlow::{Break, Continue};
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::sync::mpsc::{RecvTimeoutError, channel};
@@ -69,17 +70,20 @@ fn apart<T: Send>(
 ///
 /// Raises
 /// ------
-/// ValueError
+/// ValueError, TypeError
 ///     A field is not allowed; the message names it and says what to write instead.
-#[pyclass(frozen, module = "impact_chain")]
+#[pyclass(frozen, eq, module = "impact_chain")]
+#[derive(PartialEq)]
 struct Scenario(impact_chain::Scenario);
 
 #[pymethods]
 impl Scenario {
     #[new]
-    #[pyo3(signature = (**fields))]
-    fn new(py: Python<'_>, fields: Option<Bound<'_, PyDict>>) -> PyResult<Scenario> {
-        Scenario::from_json(&json_of(py, fields.as_ref())?)
+    #[pyo3(signature = (*, forcing, **fields))]
+    fn new(forcing: Bound<'_, PyAny>, fields: Option<Bound<'_, PyDict>>) -> PyResult<Scenario> {
+        let mut values = json_values(fields.as_ref())?;
+        values.insert("forcing".into(), json_value("forcing", &forcing)?);
+        Scenario::from_json(&Value::Object(values).to_string())
     }
 
     /// Reads a scenario from JSON, as `impact-paper trace` does.
@@ -97,25 +101,36 @@ impl Scenario {
     /// index, stream, seed
     ///     Of the realisation, which has the same normals at every sigma.
     /// **chain
-    ///     Fields of the chain: masses, restitution, boundary, start, …
+    ///     Fields of the chain: masses, restitution, boundary, initial ("rest", "zero" or
+    ///     "random"), …
     #[staticmethod]
     #[pyo3(signature = (sigma, index = 0, *, stream = "sweep", seed = 2007, **chain))]
     fn draw(
-        py: Python<'_>,
         sigma: f64,
-        index: u64,
+        index: i128,
         stream: &str,
-        seed: u64,
+        seed: i128,
         chain: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Scenario> {
+        let (index, seed) = (whole_number("index", index)?, whole_number("seed", seed)?);
         let mut normals = NormalPairs::new(stream, seed, index);
-        let scenario = impact_chain::Scenario::draw(&chain_of(py, chain)?, sigma, &mut normals);
+        let scenario = impact_chain::Scenario::draw(&chain_from(chain)?, sigma, &mut normals);
         scenario.validate().map_err(to_python)?;
         Ok(Scenario(scenario))
     }
 
+    /// Writes the scenario as JSON in one line.
     fn to_json(&self) -> String {
         self.0.to_json()
+    }
+
+    /// Returns the fields of the scenario: `Scenario(**scenario.to_dict())` is the same.
+    fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        py.import("json")?.call_method1("loads", (self.to_json(),))
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
+        Ok((py.get_type::<Scenario>().getattr("from_json")?, (self.to_json(),)))
     }
 
     fn __repr__(&self) -> String {
@@ -124,31 +139,62 @@ impl Scenario {
     }
 }
 
-/// Writes keywords as JSON, arrays of numpy included.
-fn json_of(py: Python<'_>, fields: Option<&Bound<'_, PyDict>>) -> PyResult<String> {
-    let Some(fields) = fields else { return Ok("{}".to_string()) };
+/// Reads the value of a keyword, arrays of numpy included.
+fn json_value(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Value> {
+    let py = value.py();
     let tolist = py.import("operator")?.call_method1("methodcaller", ("tolist",))?;
     let arguments = [("default", tolist)].into_py_dict(py)?;
-    py.import("json")?.call_method("dumps", (fields,), Some(&arguments))?.extract()
+    arguments.set_item("allow_nan", false)?;
+    let json = py.import("json")?.call_method("dumps", (value,), Some(&arguments));
+    let json = json.map_err(|error| {
+        if error.is_instance_of::<PyValueError>(py) {
+            PyValueError::new_err(format!("{name}: a number is not finite; give finite numbers"))
+        } else {
+            let message = format!("{name}: {}; give numbers or arrays of them", error.value(py));
+            PyTypeError::new_err(message)
+        }
+    })?;
+    from_str(json.extract()?).map_err(|error| refused(name, error))
 }
 
-/// Reads a chain from keywords: the fields of `Chain`.
-fn chain_of(py: Python<'_>, fields: Option<&Bound<'_, PyDict>>) -> PyResult<Chain> {
-    let refused = |name: &str, error| PyValueError::new_err(format!("{name}: {error}"));
-    let unread = |error: serde_json::Error| refused("chain", error);
-    let given: Map<String, Value> = from_str(&json_of(py, fields)?).map_err(unread)?;
+fn json_values(fields: Option<&Bound<'_, PyDict>>) -> PyResult<Map<String, Value>> {
+    let mut values = Map::new();
+    for (name, value) in fields.into_iter().flatten() {
+        let name: String = name.extract()?;
+        let value = json_value(&name, &value)?;
+        values.insert(name, value);
+    }
+    Ok(values)
+}
+
+fn refused(name: &str, problem: impl Display) -> PyErr {
+    PyValueError::new_err(format!("{name}: {problem}"))
+}
+
+/// Reads a chain from keywords: the fields of `Chain`, of which `start` is `initial` here.
+fn chain_from(fields: Option<&Bound<'_, PyDict>>) -> PyResult<Chain> {
     let mut chain = Chain::default();
-    for (name, value) in given {
-        let mut fields = to_value(&chain).map_err(unread)?;
-        let Some(field) = fields.get_mut(&name) else {
-            let known = "masses, spacing, natural_frequency, forcing_frequency, restitution, \
-                         boundary, start";
-            return Err(PyValueError::new_err(format!("{name}: give one of {known}")));
+    for (name, value) in json_values(fields)? {
+        let mut fields = to_value(&chain).map_err(|error| refused(&name, error))?;
+        let known = match name.as_str() {
+            "start" => None,
+            "initial" => fields.get_mut("start"),
+            name => fields.get_mut(name),
+        };
+        let Some(field) = known else {
+            let names = "masses, spacing, natural_frequency, forcing_frequency, restitution, \
+                         boundary, initial";
+            return Err(refused(&name, format!("give one of {names}")));
         };
         *field = value;
         chain = from_value(fields).map_err(|error| refused(&name, error))?;
     }
     Ok(chain)
+}
+
+fn whole_number(name: &str, value: i128) -> PyResult<u64> {
+    let remedy = "give a whole number from 0 to 2**64 - 1";
+    u64::try_from(value).map_err(|_| refused(name, format!("{value}; {remedy}")))
 }
 
 /// A state to go on from: time, positions, velocities.
@@ -162,7 +208,12 @@ fn engine(scenario: &Scenario, start: Start, first: f64) -> PyResult<Engine> {
             Engine::from_state(&scenario.0, &State { time, positions, velocities })
         }
     };
-    let engine = engine.map_err(to_python)?;
+    let engine = engine.map_err(|error| match error.field() {
+        Some(field) if ["time", "positions", "velocities"].iter().any(|f| field.starts_with(f)) => {
+            refused("start", error)
+        }
+        _ => to_python(error),
+    })?;
     let begin = engine.time();
     if first < begin {
         let message = format!("{first:?} is before the start at t = {begin:?}; give a later time");
@@ -278,7 +329,7 @@ fn states<'py>(
     start: Start,
 ) -> PyResult<(Matrix<'py>, Matrix<'py>)> {
     if !at.is_sorted() {
-        return Err(PyValueError::new_err("at: give rising times"));
+        return Err(refused("at", "give rising times"));
     }
     let shape = [at.len(), scenario.0.forcing.len()];
     let mut engine = engine(scenario, start, at.first().copied().unwrap_or(f64::MAX))?;
@@ -311,7 +362,7 @@ fn states<'py>(
 /// stream, seed
 ///     Of the random numbers: realisation i is `Scenario.draw(sigma, i, ...)`.
 /// **chain
-///     Fields of the chain: masses, restitution, boundary, start, …
+///     Fields of the chain: masses, restitution, boundary, initial, …
 ///
 /// Returns
 /// -------
@@ -325,18 +376,20 @@ fn states<'py>(
 fn ensemble<'py>(
     py: Python<'py>,
     sigma: f64,
-    realisations: u64,
+    realisations: i128,
     transient: f64,
     window: f64,
     stream: &str,
-    seed: u64,
+    seed: i128,
     chain: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<(Array<'py, i64>, Array<'py, i64>)> {
     if !(sigma >= 0.0 && transient >= 0.0 && window > 0.0) {
         let message = "sigma, transient, window: give no negative number, and a window above 0";
         return Err(PyValueError::new_err(message));
     }
-    let (chain, windows) = (chain_of(py, chain)?, [Protocol { transient, window }]);
+    let realisations = whole_number("realisations", realisations)?;
+    let seed = whole_number("seed", seed)?;
+    let (chain, windows) = (chain_from(chain)?, [Protocol { transient, window }]);
     let until = windows[0].end();
     let counts = apart(py, |stop| {
         let stopped = || stop.load(Relaxed);
@@ -377,6 +430,7 @@ fn ensemble<'py>(
 /// Chains of forced masses with impacts, simulated exactly from event to event.
 #[pymodule(name = "impact_chain")]
 fn python_module(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_class::<Scenario>()?;
     module.add_function(wrap_pyfunction!(impacts, module)?)?;
     module.add_function(wrap_pyfunction!(events, module)?)?;

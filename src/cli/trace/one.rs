@@ -2,7 +2,7 @@
 
 use super::super::range::Times;
 use super::args::Args;
-use impact_chain::methods::Cost;
+use impact_chain::methods::{Cost, Task};
 use impact_chain::rounding;
 use impact_chain::{Counters, End, Engine, Error, Event, Graze, Impact, LATEST, Scenario, State};
 use impact_paper::params::MethodName;
@@ -164,7 +164,7 @@ impl Job {
         let mut left = self.args.max_impacts.unwrap_or(u64::MAX);
         let until = if left == 0 { start.time } else { self.args.until.unwrap_or_default() };
         let method = self.args.method.with(self.setting, 0.0);
-        method.run((scenario, start, until), &mut |Impact { time, gap, closing_speed }| {
+        method.run(Task { scenario, start, until }, &mut |Impact { time, gap, closing_speed }| {
             self.note_time(time);
             if left > 0 {
                 rows.row(format_args!("{time:?},{gap},{closing_speed:?}"));

@@ -3,7 +3,7 @@
 use crate::experiments::prelude::*;
 use crate::params::{BiasParams, Means, MethodName, Setting};
 use impact_chain::Abreast;
-use impact_chain::methods::VerletAbreast;
+use impact_chain::methods::{Task, VerletAbreast};
 use rayon::prelude::*;
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -56,7 +56,8 @@ pub fn run(parameters: &BiasParams, progress: &Progress) -> Result<Biases, Error
                     hit[impact.gap] |= impact.time > of.transient;
                     !progress.stopped()
                 };
-                let task = (&scenario, &State::of(&scenario), of.chains.until);
+                let start = State::of(&scenario);
+                let task = Task { scenario: &scenario, start: &start, until: of.chains.until };
                 let ran = method.run(task, &mut see);
                 progress.check()?;
                 Ok(ran.ok().map(|_| hit.iter().map(|hit| u32::from(*hit)).sum()))

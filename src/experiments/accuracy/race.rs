@@ -4,7 +4,7 @@ use crate::experiments::horizon::{self, Horizon};
 use crate::experiments::prelude::*;
 use crate::params::{RaceParams, Setting};
 use impact_chain::methods::truth::{Hit, TrueMotion};
-use impact_chain::methods::{Cost, Method};
+use impact_chain::methods::{Cost, Method, Task};
 use impact_numerics::double_double::DoubleDouble;
 use impact_numerics::statistics::{mean, quantile, standard_error};
 
@@ -118,7 +118,8 @@ fn entry(
     let (mut misses, mut errors, mut units) = (0, Vec::new(), None);
     for Target { scenario, state, hit, unit } in targets {
         progress.check()?;
-        match method.first((scenario, state, hit.time.to_f64() + PATIENCE)) {
+        let until = hit.time.to_f64() + PATIENCE;
+        match method.first(Task { scenario, start: state, until }) {
             Ok(Some(impact)) if impact.gap == hit.gap => {
                 let error = error(hit, &impact);
                 errors.push(error);
@@ -155,7 +156,8 @@ fn follow(
         left = left.or(other.map(|hit| hit.time.to_f64()));
         (left.is_none() || impact.time < parameters.at_least) && !progress.stopped()
     };
-    let cost = method.run((scenario, &State::of(scenario), parameters.until), &mut compare);
+    let task = Task { scenario, start: &State::of(scenario), until: parameters.until };
+    let cost = method.run(task, &mut compare);
     // Or at the first impact of the truth that the run did not reach.
     let left = left.or_else(|| truth.next().map(|hit| hit.time.to_f64()));
     (left.unwrap_or(parameters.until), cost.unwrap_or_default())

@@ -33,7 +33,7 @@ impl Rival for Advancement {
     const NAME: &'static str = "advancement";
 
     fn begin(&self, task: Task) -> Result<Run, Error> {
-        let (scenario, start, until) = task;
+        let Task { scenario, start, until } = task;
         let mut flights = Flights::new(task)?;
         flights.stop = self.stop;
         check_tolerance(self.tolerance)?;

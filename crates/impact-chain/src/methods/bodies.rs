@@ -30,7 +30,7 @@ pub struct Bodies {
 }
 
 impl Bodies {
-    pub fn new((scenario, start, _): Task) -> Result<Bodies, Error> {
+    pub fn new(Task { scenario, start, .. }: Task) -> Result<Bodies, Error> {
         scenario.check_uniform()?;
         let u = start.displacements(scenario)?;
         let masses = scenario.forcing.len();

@@ -35,7 +35,7 @@ pub struct Flights {
 pub type FlightPhases = ((f64, f64), Phases);
 
 impl Flights {
-    pub fn new((scenario, start, _): Task) -> Result<Flights, Error> {
+    pub fn new(Task { scenario, start, .. }: Task) -> Result<Flights, Error> {
         scenario.check_uniform()?;
         let u = start.displacements(scenario)?;
         let w = scenario.natural_frequency;

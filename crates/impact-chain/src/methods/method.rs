@@ -31,8 +31,16 @@ impl Cost {
     }
 }
 
-/// A chain, the state from which it starts (not the scenario's), and the time until which it runs.
-pub type Task<'a> = (&'a Scenario, &'a State, f64);
+/// A run: of which chain, from where, and until when.
+#[derive(Clone, Copy, Debug)]
+pub struct Task<'a> {
+    /// The chain.
+    pub scenario: &'a Scenario,
+    /// The state from which the run starts, at its time, whatever the start of the scenario is.
+    pub start: &'a State,
+    /// The time of the end, from that of the start to [`LATEST`](crate::LATEST).
+    pub until: f64,
+}
 
 /// A way to simulate a chain. Only this crate has some: another may not rely on their parts.
 pub trait Method: Sealed + Sync {
@@ -45,17 +53,23 @@ pub trait Method: Sealed + Sync {
     /// A gap of the start that is shut up to rounding counts as shut; it is hit if it is closing.
     ///
     /// # Errors
-    /// [`Error::Input`] for a scenario, start, step or tolerance outside the model,
+    /// [`Error::Input`] for a scenario, start, end, step or tolerance outside the model,
     /// [`Error::Overlap`] for an overlapping start, [`Error::Work`] when a bound on work is
     /// exceeded.
     fn run(&self, task: Task, sink: Sink) -> Result<Cost, Error>;
 
-    /// Returns the first impact, or none if there is no impact.
+    /// Returns the first impact, or `None` if there is no impact.
+    ///
+    /// # Errors
+    /// Those of [`run`](Method::run).
     fn first(&self, task: Task) -> Result<Option<Impact>, Error> {
         Ok(collect(1, |sink| self.run(task, sink))?.pop())
     }
 
     /// Returns all impacts, in order.
+    ///
+    /// # Errors
+    /// Those of [`run`](Method::run).
     fn impacts(&self, task: Task) -> Result<Vec<Impact>, Error> {
         collect(usize::MAX, |sink| self.run(task, sink))
     }

@@ -45,8 +45,8 @@ impl Rival for Penalty {
 
     fn begin(&self, task: Task) -> Result<Run, Error> {
         let row = Bodies::new(task)?;
-        let (scenario, ..) = task;
-        let steps = (DURATION / (self.step * scenario.natural_frequency)).sqrt().max(STEPS);
+        let omega = task.scenario.natural_frequency;
+        let steps = (DURATION / (self.step * omega)).sqrt().max(STEPS);
         let contact = PI / (steps * self.step);
         let rates = row.rates();
         let springs = Springs {

@@ -26,10 +26,9 @@ impl<R: Rival> Method for R {
     }
 
     fn run(&self, task: Task, sink: Sink) -> Result<Cost, Error> {
-        let (scenario, _, until) = task;
-        check_end(until)?;
+        check_end(task)?;
         let run = self.begin(task)?;
-        let mut tally = Tally::new(scenario, sink);
+        let mut tally = Tally::new(task.scenario, sink);
         match run(&mut tally) {
             Err(Some(error)) => Err(error),
             Err(None) | Ok(()) => Ok(tally.cost),

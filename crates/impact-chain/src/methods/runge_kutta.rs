@@ -39,7 +39,7 @@ impl Rival for RungeKutta {
     const NAME: &'static str = "runge-kutta";
 
     fn begin(&self, task: Task) -> Result<Run, Error> {
-        let (scenario, start, until) = task;
+        let Task { scenario, start, until } = task;
         let (mut row, now) = (Bodies::new(task)?, Instant::at(start.time));
         row.stop = self.stop;
         check_tolerance(self.tolerance)?;

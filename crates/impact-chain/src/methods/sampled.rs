@@ -102,7 +102,7 @@ struct Gaps {
 
 impl Gaps {
     fn new(task: Task, stop: f64) -> Result<Gaps, Error> {
-        let (scenario, start, _) = task;
+        let Task { scenario, start, .. } = task;
         scenario.check_uniform()?;
         let u = start.displacements(scenario)?;
         let topology = Topology::new(scenario.forcing.len(), scenario.boundary);
@@ -386,7 +386,8 @@ mod tests {
             Scenario::given(&Chain { masses: 1, ..Chain::default() }, vec![[0.18, 0.24]]);
         let initial = Initial::Free(vec![[0.3, 0.4]]);
         let scenario = Scenario { forcing_frequency: 2.0, initial, ..scenario.unwrap() };
-        let mut gaps = Gaps::new((&scenario, &State::of(&scenario), 1.0), 0.0).unwrap();
+        let task = Task { scenario: &scenario, start: &State::of(&scenario), until: 1.0 };
+        let mut gaps = Gaps::new(task, 0.0).unwrap();
         for (h, terms) in [(0.5, 16), (0.1, 11), (1e-3, ROUGH)] {
             gaps.lengthen(h);
             assert_eq!(gaps.terms, terms, "{h}");

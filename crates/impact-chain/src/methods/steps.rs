@@ -2,7 +2,7 @@
 //! tolerances and end times.
 
 use super::method::Task;
-use crate::error::{Error, within};
+use crate::error::{Error, check_range};
 use crate::search::clock::{Instant, LATEST, Rate};
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -53,8 +53,9 @@ struct Piece {
 }
 
 impl Steps {
-    pub fn new((scenario, start, until): Task, h: f64, rates: Vec<Rate>) -> Result<Steps, Error> {
-        within("step", h, SHORTEST, 1.0 / scenario.fastest())?;
+    pub fn new(task: Task, h: f64, rates: Vec<Rate>) -> Result<Steps, Error> {
+        let Task { scenario, start, until } = task;
+        check_range("step", h, SHORTEST, 1.0 / scenario.fastest())?;
         let count = ((until - start.time).max(0.0) / h).ceil();
         if count > MAX_STEPS {
             return Err(too_many(count, "step"));
@@ -109,12 +110,12 @@ pub fn too_many(steps: f64, field: &str) -> Error {
     Error::input(field, format!("{steps:.1e} steps are needed"), remedy)
 }
 
-pub fn check_end(until: f64) -> Result<(), Error> {
-    within("until", until, -LATEST, LATEST)
+pub fn check_end(task: Task) -> Result<(), Error> {
+    check_range("until", task.until, task.start.time, LATEST)
 }
 
 pub fn check_tolerance(tolerance: f64) -> Result<(), Error> {
-    within("tolerance", tolerance, 1e-15, 0.1)
+    check_range("tolerance", tolerance, 1e-15, 0.1)
 }
 
 #[cfg(test)]
@@ -128,7 +129,8 @@ mod tests {
         let scenario = Scenario::given(&Chain { masses: 1, ..Chain::default() }, vec![[0.0; 2]]);
         let (scenario, rates) = (scenario.unwrap(), [1.0, 1.4].map(Rate::new).to_vec());
         for number in [8, 15, 24] {
-            let task = (&scenario, &State::of(&scenario), f64::from(number) * 0.125);
+            let (start, until) = (State::of(&scenario), f64::from(number) * 0.125);
+            let task = Task { scenario: &scenario, start: &start, until };
             let mut ends = Vec::new();
             let steps = Steps::new(task, 0.125, rates.clone()).unwrap();
             let each = steps.each(|step| -> Result<(), ()> {

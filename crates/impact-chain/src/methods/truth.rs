@@ -26,7 +26,7 @@ fn refused(field: &str, problem: impl Into<String>) -> Error {
 impl Rival for Truth {
     const NAME: &'static str = "truth";
 
-    fn begin(&self, (scenario, start, until): Task) -> Result<Run, Error> {
+    fn begin(&self, Task { scenario, start, until }: Task) -> Result<Run, Error> {
         if scenario.boundary == Boundary::Ring {
             return Err(refused("boundary", "truth supports walls only"));
         }

@@ -79,7 +79,8 @@ impl VerletAbreast {
         let start = State { time: 0.0, positions: Vec::new(), velocities: Vec::new() };
         // Half a step more, which is not made: all that are made are whole.
         let end = ((until / h).ceil() + 0.5) * h;
-        let steps = Steps::new((like, &start, end), h, vec![Rate::new(like.forcing_frequency)])?;
+        let task = Task { scenario: like, start: &start, until: end };
+        let steps = Steps::new(task, h, vec![Rate::new(like.forcing_frequency)])?;
         for group in ready.chunks(LANES) {
             let mut lanes = Lanes { until, window, ..Lanes::new(like, h, group) };
             dispatch!(level(), simd => lanes.run(simd, &steps, sink));
@@ -102,8 +103,9 @@ impl Method for VerletAbreast {
         "verlet-abreast"
     }
 
-    fn run(&self, (scenario, start, until): Task, sink: Sink) -> Result<Cost, Error> {
-        check_end(until)?;
+    fn run(&self, task: Task, sink: Sink) -> Result<Cost, Error> {
+        check_end(task)?;
+        let Task { scenario, start, until } = task;
         let begin = start.time;
         let mut later = |_, impact: Impact| sink(Impact { time: begin + impact.time, ..impact });
         let all = [start.as_scenario(scenario)?];

@@ -98,7 +98,7 @@ fn no_gap_is_below_zero() {
                 let mut engine = Engine::new(scenario).unwrap();
                 engine.advance(until).unwrap();
                 let (sin, cos) = (chain.natural_frequency * until).sin_cos();
-                let mut positions = engine.positions(until).unwrap();
+                let mut positions = engine.state(until).unwrap().positions;
                 let parts = found.free_parts(&chain).into_iter().zip(engine.free_parts());
                 for (position, (ours, theirs)) in positions.iter_mut().zip(parts) {
                     let [a, b] = [ours[0] - theirs[0], ours[1] - theirs[1]];

@@ -2,7 +2,7 @@
 
 use crate::{drawn, given, run};
 use impact_chain::methods::{
-    Advancement, Certified, Cost, Method, MoreauJean, Penalty, RungeKutta, Sampled, Verlet,
+    Advancement, Certified, Cost, Method, MoreauJean, Penalty, RungeKutta, Sampled, Task, Verlet,
     VerletAbreast,
 };
 use impact_chain::{Boundary, Chain, Engine, Error, Impact, Initial, NormalPairs, Scenario, State};
@@ -25,7 +25,8 @@ fn trace(
     until: f64,
 ) -> (Vec<Impact>, Result<Cost, Error>) {
     let mut impacts = Vec::new();
-    let cost = method.run((scenario, &State::of(scenario), until), &mut |impact| {
+    let task = Task { scenario, start: &State::of(scenario), until };
+    let cost = method.run(task, &mut |impact| {
         impacts.push(impact);
         true
     });
@@ -33,7 +34,7 @@ fn trace(
 }
 
 fn impacts(method: &dyn Method, scenario: &Scenario, until: f64) -> Vec<Impact> {
-    method.impacts((scenario, &State::of(scenario), until)).unwrap()
+    method.impacts(Task { scenario, start: &State::of(scenario), until }).unwrap()
 }
 
 fn all() -> Vec<Box<dyn Method>> {
@@ -126,7 +127,8 @@ fn runs_stop_and_go_on() {
         for method in all().into_iter().chain([more]) {
             let name = method.name();
             let mut found: Vec<Impact> = Vec::new();
-            let cost = method.run((&scenario, &start, 40.0), &mut |impact| {
+            let task = Task { scenario: &scenario, start: &start, until: 40.0 };
+            let cost = method.run(task, &mut |impact| {
                 found.push(impact);
                 found.len() < 3
             });
@@ -137,7 +139,8 @@ fn runs_stop_and_go_on() {
                 let off = (exact.time - found.time).abs();
                 assert!(exact.gap == found.gap && off < room, "{name}: {exact:?} {found:?}");
             }
-            assert_eq!(method.run((&scenario, &start, 29.0), &mut |_| true).unwrap().impacts, 0);
+            let refused = method.impacts(Task { until: 29.0, ..task }).unwrap_err();
+            assert!(refused.to_string().starts_with("until: 29.0"), "{name}: {refused}");
         }
     }
 }
@@ -169,7 +172,7 @@ fn no_method_loops_or_panics_on_bad_data() {
     for method in all() {
         let name = method.name();
         let run = |scenario: &Scenario, start: &State, until: f64| {
-            method.run((scenario, start, until), &mut |_| true)
+            method.run(Task { scenario, start, until }, &mut |_| true)
         };
         let overlap = run(&good, &overlapped, 9.0);
         assert!(matches!(overlap, Err(Error::Overlap { gap: 1, .. })), "{name}");
@@ -221,7 +224,8 @@ fn a_flight_by_the_implicit_midpoint_rule_is_known_in_closed_form() {
         };
         let [u, v] = motion(0.0);
         let start = State { time: 0.0, positions: vec![1.0 + u], velocities: vec![v] };
-        let hit = MoreauJean { step: h }.impacts((&one, &start, 40.0)).unwrap()[0];
+        let task = Task { scenario: &one, start: &start, until: 40.0 };
+        let hit = MoreauJean { step: h }.impacts(task).unwrap()[0];
         let mut steps = (0..200).map(f64::from).map(|n| (n, motion(n)));
         let (n, [_, v]) = steps.find(|(_, [u, v])| (u + 0.5 * h * v).abs() >= 1.0).unwrap();
         let off = (hit.closing_speed - v.abs()).abs().max((hit.time - (n + 0.5) * h).abs());
