@@ -314,7 +314,7 @@ fn events<'py>(
     Ok(list)
 }
 
-/// Positions and velocities of all masses at rising times.
+/// Positions and velocities of all masses at a time, or at rising times.
 ///
 /// Returns
 /// -------
@@ -325,9 +325,10 @@ fn events<'py>(
 fn states<'py>(
     py: Python<'py>,
     scenario: &Scenario,
-    at: Vec<f64>,
+    at: Bound<'py, PyAny>,
     start: Start,
 ) -> PyResult<(Matrix<'py>, Matrix<'py>)> {
+    let at: Vec<f64> = at.extract().map(|time| vec![time]).or_else(|_| at.extract())?;
     if !at.is_sorted() {
         return Err(refused("at", "give rising times"));
     }

@@ -30,6 +30,7 @@ def test_states_and_events():
     assert x.shape == v.shape == (2, 1)
     assert abs(x[0, 0] - 1 - 2 * numpy.sin(0.25)) < 1e-15
     assert abs(v[1, 0] + numpy.sqrt(3)) < 1e-14
+    assert impact_chain.states(ball(), 0.25)[0] == x[:1]
     pressed = impact_chain.Scenario(
         forcing=[[0, 0]], places=[-50], walls=[0, 1e6], restitution=0.0,
         initial={"at": {"positions": [1], "velocities": [0]}})

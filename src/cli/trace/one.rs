@@ -32,6 +32,8 @@ pub enum Part {
     /// Whole rows; none at all at a good end.
     Rows(String),
     Note(String),
+    /// Why a line failed after which the others go on.
+    FailedLine(String),
     Failed(Failure),
 }
 
@@ -103,7 +105,7 @@ impl Job {
             Err(failure) if self.args.keep_going => {
                 rows.first_cells = cells(if failure.code == 1 { "stopped" } else { "refused" });
                 rows.row(format_args!("{commas}"));
-                Some(Part::Note(failure.message))
+                Some(Part::FailedLine(failure.message))
             }
             Err(failure) => Some(Part::Failed(failure)),
         };
@@ -143,7 +145,14 @@ impl Job {
                  and errors grow from impact to impact"
             ));
         }
-        let ran = ran.map_err(|error| in_file(name, error));
+        let ran = ran.map_err(|error| {
+            let field = error.field().unwrap_or_default();
+            let of_state = ["time", "positions", "velocities"].iter().any(|f| field.starts_with(f));
+            match &self.args.from {
+                Some(path) if of_state => in_file(&format!("--from: {}", path.display()), error),
+                _ => in_file(name, error),
+            }
+        });
         let ended = ran.and_then(|(_, state)| match (&self.args.save, state) {
             (Some(path), Some(state)) => save(path, &state),
             _ => Ok(()),
@@ -239,8 +248,12 @@ impl Job {
                 Box::new(multiples.map(|k| k as f64 * period).skip_while(|time| *time < from))
             }
         };
-        let mut last = from;
+        let (mut last, mut printed) = (from, None);
         for time in times.take_while(|time| *time <= until.unwrap_or(LATEST)) {
+            // Equal times have one state.
+            if printed.replace(time) == Some(time) {
+                continue;
+            }
             engine.advance(time)?;
             self.note_time(time);
             let state = engine.state(time)?;
