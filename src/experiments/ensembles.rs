@@ -73,7 +73,7 @@ pub fn rows(all: &Vec<Ensemble>) -> Vec<UnitRow> {
     let row = |(one, sigma): (&Ensemble, f64)| UnitRow {
         realisations: one.realisations_at(sigma),
         weight: one.work(sigma),
-        together: Abreast::number(&one.chain),
+        together: Abreast::batch_size(&one.chain),
     };
     cases(all).map(row).collect()
 }
@@ -92,7 +92,7 @@ pub fn part(
         progress.check()?;
         counts.map_err(|source| Error::failed("an ensemble", source))
     };
-    let together = Abreast::number(&one.chain);
+    let together = Abreast::batch_size(&one.chain);
     Ok(unit.in_groups(together, stage, some)?.into_iter().flatten().collect())
 }
 

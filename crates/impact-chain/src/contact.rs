@@ -180,18 +180,18 @@ impl<const M: usize> Simulation<M> {
     fn note_contacts(&mut self) {
         let (mut freed, stuck) = (take(&mut self.freed), take(&mut self.stuck));
         freed.retain(|&k| !self.gaps[k].in_contact);
-        let (at, time) = (self.now, self.time(self.now));
+        let (instant, time) = (self.now, self.time(self.now));
         let [freed, stuck] = [freed, stuck].map(|mut gaps| {
             gaps.sort_unstable();
             gaps.iter().map(|&k| self.topology.label(k)).collect::<Vec<usize>>()
         });
         if !freed.is_empty() {
             let event = Event::Release { time, gaps: freed };
-            self.waiting.push(Waiting { at, dip: None, event });
+            self.waiting.push(Waiting { instant, dip: None, event });
         }
         if !stuck.is_empty() {
             let event = Event::Stick { time, gaps: stuck };
-            self.waiting.push(Waiting { at, dip: None, event });
+            self.waiting.push(Waiting { instant, dip: None, event });
         }
     }
 
@@ -326,15 +326,16 @@ impl<const M: usize> Simulation<M> {
             if self.topology.is_wall(m) {
                 continue;
             }
-            let was = self.motions[m];
+            let common = self.motions[m];
             let offset = self.shifts[m];
             let alone = Motion { forced: self.forced[m], offset, ..Motion::STILL };
-            let (parts, parts_alone) = (was.parts(p), alone.parts(p));
-            let (mut u, mut quadrature) = (was.offset - offset + parts.u, parts.u_quadrature);
-            for (i, (was, alone)) in parts.forced.iter().zip(parts_alone.forced).enumerate() {
+            let (parts, parts_alone) = (common.parts(p), alone.parts(p));
+            let (mut u, mut quadrature) = (common.offset - offset + parts.u, parts.u_quadrature);
+            for (i, (common, alone)) in parts.forced.iter().zip(parts_alone.forced).enumerate() {
                 let frequencies = &self.search.frequencies;
-                u += was[0] - alone[0];
-                quadrature += frequencies.big_omegas[i] / frequencies.omega * (was[1] - alone[1]);
+                let ratio = frequencies.big_omegas[i] / frequencies.omega;
+                u += common[0] - alone[0];
+                quadrature += ratio * (common[1] - alone[1]);
             }
             self.motions[m] = alone;
             self.motions[m].set_free(u, quadrature, p);

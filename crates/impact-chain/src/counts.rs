@@ -45,7 +45,8 @@ impl Protocol {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Counts {
-    /// Different gaps with an impact, by window and realisation; none of a run that ended before.
+    /// Different gaps with an impact, by window and realisation, or `None` if the run ended before
+    /// the window.
     pub distinct: Vec<Vec<Option<u32>>>,
     /// Impacts in each window, of each realisation.
     pub impacts: Vec<Vec<u64>>,
@@ -104,19 +105,19 @@ fn extend<T>(rows: &mut [Vec<T>], next: Vec<Vec<T>>) {
 }
 
 impl FromIterator<Counts> for Counts {
-    fn from_iter<I: IntoIterator<Item = Counts>>(all: I) -> Self {
-        let mut all = all.into_iter();
-        let mut whole = all.next().unwrap_or_default();
-        for one in all {
-            extend(&mut whole.distinct, one.distinct);
-            extend(&mut whole.impacts, one.impacts);
-            extend(&mut whole.masses, one.masses);
-            whole.rejected += one.rejected;
-            whole.failed += one.failed;
-            whole.by_engine += one.by_engine;
-            whole.total.add(&one.total);
+    fn from_iter<I: IntoIterator<Item = Counts>>(parts: I) -> Self {
+        let mut parts = parts.into_iter();
+        let mut joined = parts.next().unwrap_or_default();
+        for part in parts {
+            extend(&mut joined.distinct, part.distinct);
+            extend(&mut joined.impacts, part.impacts);
+            extend(&mut joined.masses, part.masses);
+            joined.rejected += part.rejected;
+            joined.failed += part.failed;
+            joined.by_engine += part.by_engine;
+            joined.total.add(&part.total);
         }
-        whole
+        joined
     }
 }
 
@@ -275,11 +276,11 @@ impl Watch {
         self.passed.resize(self.edges.len(), self.total.impacts);
         let mut counts = Counts { total: self.total.clone(), ..self.incomplete() };
         for (place, window) in self.windows.iter().enumerate() {
-            let edge = |time: f64| self.passed.get(self.edges.partition_point(|at| *at < time));
+            let edge = |time: f64| self.passed.get(self.edges.partition_point(|edge| *edge < time));
             let Some((begin, end)) = edge(window.transient).zip(edge(window.end())) else {
                 continue;
             };
-            let hit = self.hit(window).unwrap_or_default();
+            let hit = self.gaps_hit(window).unwrap_or_default();
             counts.distinct[place] = vec![Some(hit.iter().map(|&hit| u32::from(hit)).sum())];
             counts.impacts[place] = vec![end - begin];
             counts.masses[place] = vec![masses_hit(&self.topology, &hit)];
@@ -288,9 +289,9 @@ impl Watch {
     }
 
     /// Returns which gaps had an impact in one of the windows, or `None` for another window.
-    pub fn hit(&self, window: &Protocol) -> Option<Vec<bool>> {
+    pub fn gaps_hit(&self, window: &Protocol) -> Option<Vec<bool>> {
         self.windows.iter().find(|one| *one == window)?;
-        let transient = self.transients.partition_point(|at| *at < window.transient);
+        let transient = self.transients.partition_point(|time| *time < window.transient);
         Some(self.firsts[transient].iter().map(|&time| time <= window.end()).collect())
     }
 }
@@ -317,8 +318,8 @@ mod tests {
             ([true; 5], 4, 5),
             ([false; 5], 0, 0),
         ] {
-            let found = [Topology::new(4, Boundary::Walls), Topology::new(5, Boundary::Ring)];
-            assert_eq!(found.map(|topology| masses_hit(&topology, &hit)), [row, ring], "{hit:?}");
+            let both = [Topology::new(4, Boundary::Walls), Topology::new(5, Boundary::Ring)];
+            assert_eq!(both.map(|topology| masses_hit(&topology, &hit)), [row, ring], "{hit:?}");
         }
     }
 
@@ -326,26 +327,27 @@ mod tests {
     #[test]
     fn a_run_is_counted_alone_and_for_its_own_chain() {
         let chain = Chain { masses: 3, ..Chain::default() };
-        let of = |chain: &Chain, index| {
+        let engine = |chain: &Chain, index| {
             Engine::new(&Scenario::draw(chain, 0.4, &mut NormalPairs::new("watch", 1, index)))
         };
         let [window, other] = [5.0, 6.0].map(|transient| Protocol { transient, window: 20.0 });
         let windows = [window, Protocol { transient: 9.0, window: 1.0 }];
         let mut watch = Watch::new(&chain, &windows);
-        let mut counted = |index| watch.run(of(&chain, index), index, 50.0, &|| false).unwrap();
+        let mut counted = |index| watch.run(engine(&chain, index), index, 50.0, &|| false).unwrap();
         let (first, second) = (counted(0), counted(1));
-        let alone = Watch::new(&chain, &windows).run(of(&chain, 1), 1, 50.0, &|| false).unwrap();
+        let alone =
+            Watch::new(&chain, &windows).run(engine(&chain, 1), 1, 50.0, &|| false).unwrap();
         assert!(second == alone && first.impacts != second.impacts, "{second:?}, {alone:?}");
-        assert!(watch.hit(&window).is_some() && watch.hit(&other).is_none());
+        assert!(watch.gaps_hit(&window).is_some() && watch.gaps_hit(&other).is_none());
         let ring = Chain { boundary: Boundary::Ring, masses: 4, ..chain.clone() };
         for another in [Chain { masses: 2, ..chain.clone() }, ring] {
-            let refused = watch.run(of(&another, 0), 0, 50.0, &|| false).unwrap_err();
+            let refused = watch.run(engine(&another, 0), 0, 50.0, &|| false).unwrap_err();
             assert!(refused.to_string().starts_with("engine: "), "{refused}");
         }
-        assert!(watch.run(of(&chain, 0), 0, f64::NAN, &|| false).is_err());
+        assert!(watch.run(engine(&chain, 0), 0, f64::NAN, &|| false).is_err());
         for length in [f64::NAN, f64::INFINITY, LATEST] {
             let late = [Protocol { transient: 1.0, window: length }];
-            let ran = Watch::new(&chain, &late).run(of(&chain, 0), 0, 50.0, &|| false);
+            let ran = Watch::new(&chain, &late).run(engine(&chain, 0), 0, 50.0, &|| false);
             assert!(ran.unwrap_err().to_string().starts_with("windows: "), "{length}");
         }
     }
@@ -361,8 +363,7 @@ mod tests {
         {
             watch.count(Impact { time, gap, closing_speed });
         }
-        let seen = watch.total;
-        assert_eq!(seen.near, [3, 1, 0, 0, 0, 0, 0, 0, 0]);
-        assert_eq!(seen.slow, [3, 2, 2, 1, 1, 1, 1, 1]);
+        assert_eq!(watch.total.near, [3, 1, 0, 0, 0, 0, 0, 0, 0]);
+        assert_eq!(watch.total.slow, [3, 2, 2, 1, 1, 1, 1, 1]);
     }
 }

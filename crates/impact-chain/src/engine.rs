@@ -49,7 +49,7 @@ impl Engine {
     pub fn from_state(scenario: &Scenario, state: &State) -> Result<Engine, Error> {
         scenario.validate()?;
         // Its own start is known to more digits than its positions have.
-        if *state == State::of(scenario) {
+        if *state == State::from_scenario(scenario) {
             return Engine::new(scenario);
         }
         Engine::with_epoch(&state.as_scenario(scenario)?, state.time)

@@ -29,6 +29,7 @@
 
 #[cfg(feature = "ensembles")]
 pub mod abreast;
+mod budget;
 mod chain;
 mod complementarity;
 mod contact;
@@ -64,7 +65,7 @@ mod validation;
 mod vectors;
 
 #[cfg(feature = "ensembles")]
-pub use abreast::Abreast;
+pub use abreast::{Abreast, Counting};
 pub use chain::{Boundary, Chain, Start};
 #[cfg(feature = "ensembles")]
 pub use counts::{Counts, Protocol, Watch};

@@ -33,7 +33,7 @@ impl State {
     /// # Panics
     /// Panics if `places`, or the amplitudes of an overtone, are fewer than the scenario's bodies.
     /// [`Scenario::validate`] refuses these.
-    pub fn of(scenario: &Scenario) -> State {
+    pub fn from_scenario(scenario: &Scenario) -> State {
         let w = scenario.natural_frequency;
         let mut state = State { time: 0.0, positions: Vec::new(), velocities: Vec::new() };
         for (j, [x, v]) in response_at_zero(scenario).into_iter().enumerate() {

@@ -1,7 +1,8 @@
 //! Offers the engine to Python: scenarios, their events and states, and ensembles, as arrays.
 
 use impact_chain::{
-    Abreast, Chain, Engine, Error, ErrorKind, Event, Impact, NormalPairs, Protocol, State, Watch,
+    Abreast, Chain, Counting, Counts, Engine, Error, ErrorKind, Event, Impact, NormalPairs,
+    Protocol, State, Watch,
 };
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::{PyRuntimeError, PyTypeError, PyValueError};
@@ -394,32 +395,24 @@ fn ensemble<'py>(
     let until = windows[0].end();
     let counts = apart(py, |stop| {
         let stopped = || stop.load(Relaxed);
-        let abreast = Abreast::new(&chain, &windows, until);
+        let counting = Counting::new(&chain, &windows, until);
         let draw = |index| {
             impact_chain::Scenario::draw(&chain, sigma, &mut NormalPairs::new(stream, seed, index))
         };
-        let batch = Abreast::number(&chain) as u64;
+        let batch = Abreast::batch_size(&chain) as u64;
         let starts: Vec<u64> = (0..realisations).step_by(batch as usize).collect();
         let count = |first: &u64| -> Result<Vec<[i64; 2]>, Error> {
             if stopped() {
                 return Ok(Vec::new());
             }
-            let scenarios: Vec<_> = (*first..(first + batch).min(realisations)).map(draw).collect();
-            let runs = match &abreast {
-                Some(abreast) => abreast.run(&scenarios, &stopped),
-                None => scenarios.iter().map(|_| None).collect(),
+            let indices = *first..(first + batch).min(realisations);
+            let starts = indices.map(|index| (index, Some(draw(index)))).collect();
+            let runs = counting.run(starts, |index| Engine::new(&draw(index)), &stopped)?;
+            let row = |(counts, _): &(Counts, Watch)| {
+                let distinct = counts.distinct[0][0].map_or(-1, i64::from);
+                [distinct, counts.impacts[0][0] as i64]
             };
-            let mut counts = Vec::with_capacity(runs.len());
-            for (index, (scenario, run)) in (*first..).zip(scenarios.iter().zip(runs)) {
-                let engine = || Engine::new(scenario);
-                let one = match run {
-                    Some(mut run) => run.counts(),
-                    None => Watch::new(&chain, &windows).run(engine(), index, until, &stopped)?,
-                };
-                let distinct = one.distinct[0][0].map_or(-1, i64::from);
-                counts.push([distinct, one.impacts[0][0] as i64]);
-            }
-            Ok(counts)
+            Ok(runs.iter().map(row).collect())
         };
         starts.par_iter().map(count).collect::<Result<Vec<_>, Error>>()
     })?;

@@ -129,7 +129,7 @@ impl Job {
             Ok(scenario) => scenario,
             Err(error) => return (Err(in_file(name, error)), Vec::new()),
         };
-        let start = self.start.clone().unwrap_or_else(|| State::of(&scenario));
+        let start = self.start.clone().unwrap_or_else(|| State::from_scenario(&scenario));
         let ran = if self.args.method == MethodName::Certified {
             self.by_engine(&scenario, &start, rows)
         } else {

@@ -3,7 +3,7 @@
 use crate::experiments::prelude::*;
 use crate::params::{BiasParams, Means, MethodName, Setting};
 use impact_chain::Abreast;
-use impact_chain::methods::{Task, VerletAbreast};
+use impact_chain::methods::{Task, VerletAbreast, Window};
 use rayon::prelude::*;
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -22,7 +22,7 @@ pub fn run(parameters: &BiasParams, progress: &Progress) -> Result<Biases, Error
     let stage = progress.stage("error of the mean", parameters.runs());
     let together = |of: &Means, nudged: bool| {
         let ensemble = of.ensemble(nudged);
-        let (number, all) = (Abreast::number(&ensemble.chain), ensemble.realisations as u64);
+        let (number, all) = (Abreast::batch_size(&ensemble.chain), ensemble.realisations as u64);
         let groups = (0..all).step_by(number);
         let found = each(&stage, progress, groups, |first| {
             let at = ensemble.at(ensemble.sigmas[0]);
@@ -41,7 +41,10 @@ pub fn run(parameters: &BiasParams, progress: &Progress) -> Result<Biases, Error
             }
             if setting.method == MethodName::VerletAbreast {
                 let all = (0..realisations as u64).map(|index| of.chains.scenario(index));
-                let (all, window) = (all.collect::<Vec<_>>(), Some((of.transient, false)));
+                let (all, window) = (
+                    all.collect::<Vec<_>>(),
+                    Some(Window { after: of.transient, ends_with_one: false }),
+                );
                 let verlet = VerletAbreast { step: setting.value };
                 let ran = verlet.run_all(&all, of.chains.until, window, &mut |_, _| true);
                 let (_, counts) = ran.map_err(|source| Error::failed("bias", source))?;
@@ -56,7 +59,7 @@ pub fn run(parameters: &BiasParams, progress: &Progress) -> Result<Biases, Error
                     hit[impact.gap] |= impact.time > of.transient;
                     !progress.stopped()
                 };
-                let start = State::of(&scenario);
+                let start = State::from_scenario(&scenario);
                 let task = Task { scenario: &scenario, start: &start, until: of.chains.until };
                 let ran = method.run(task, &mut see);
                 progress.check()?;

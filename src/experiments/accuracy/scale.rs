@@ -23,7 +23,7 @@ pub fn run(parameters: &ScaleParams, progress: &Progress) -> Result<Scale, Error
         let chain = Chain { masses, ..Chain::default() };
         let mut normals = NormalPairs::new(BENCH.0, BENCH.1, 0);
         let scenario = Scenario::draw(&chain, parameters.sigma, &mut normals);
-        let (start, until) = (State::of(&scenario), until(setting, masses));
+        let (start, until) = (State::from_scenario(&scenario), until(setting, masses));
         let mut go_on = |_| !progress.stopped();
         let task = Task { scenario: &scenario, start: &start, until };
         let cost = setting.method().run(task, &mut go_on);

@@ -68,19 +68,19 @@ impl<'a> Lanes<'a> {
                     }
                 }
                 let middle = (i as f64 + 0.5) * grid.length;
-                apart(
+                call_apart(
                     simd,
                     #[inline(always)]
                     || self.look(simd, start, step),
                 );
                 while !self.todo.is_empty() {
                     let Lanes { plan, slots, candidates, .. } = self;
-                    apart(
+                    call_apart(
                         simd,
                         #[inline(always)]
                         || candidates.locate(simd, plan, step.middle, slots),
                     );
-                    apart(
+                    call_apart(
                         simd,
                         #[inline(always)]
                         || self.advance(simd, step, [middle, end]),
@@ -259,8 +259,8 @@ impl<'a> Lanes<'a> {
     }
 }
 
-/// Does this in a function of its own, for its registers.
+/// Calls a closure in a function of its own, which then has all registers.
 #[inline(never)]
-fn apart<S: Simd, R>(simd: S, does: impl FnOnce() -> R) -> R {
-    simd.vectorize(does)
+fn call_apart<S: Simd, R>(simd: S, closure: impl FnOnce() -> R) -> R {
+    simd.vectorize(closure)
 }

@@ -59,8 +59,8 @@ impl Flights {
         Ok(flights)
     }
 
-    pub fn phases(&self, at: Instant) -> FlightPhases {
-        (self.turns.sin_cos(at), phases(&self.forced, at))
+    pub fn phases(&self, instant: Instant) -> FlightPhases {
+        (self.turns.sin_cos(instant), phases(&self.forced, instant))
     }
 
     /// Returns the forced response of the right body less that of the left one, and its rate.
@@ -96,7 +96,7 @@ impl Flights {
         let free = length(free_right[0] - free_left[0], free_right[1] - free_left[1]);
         let (mut reach, mut curvature) = (free, self.omega * self.omega * free);
         for part in &self.forced {
-            let [c, s] = [&part.cos, &part.sin].map(|all| all[right] - all[left]);
+            let [c, s] = [&part.cos, &part.sin].map(|of_bodies| of_bodies[right] - of_bodies[left]);
             reach += length(c, s);
             curvature += part.frequency * part.frequency * length(c, s);
         }

@@ -30,8 +30,8 @@ impl<R: Rival> Method for R {
         let run = self.begin(task)?;
         let mut tally = Tally::new(task.scenario, sink);
         match run(&mut tally) {
-            Err(Some(error)) => Err(error),
-            Err(None) | Ok(()) => Ok(tally.cost),
+            Err(Stop::Failed(error)) => Err(error),
+            Err(Stop::ByReceiver) | Ok(()) => Ok(tally.cost),
         }
     }
 }

@@ -110,24 +110,26 @@ impl Gaps {
         let responses = Component::responses(scenario);
         let length = gaps.next_multiple_of(8);
         let begin = Instant::at(start.time);
-        let phases: Vec<_> = responses.iter().map(|of| of.phase(begin)).collect();
+        let phases: Vec<_> = responses.iter().map(|response| response.phase(begin)).collect();
         let (sin, cos) = Rate::new(w).sin_cos(begin);
         let free = |m: usize| {
             if topology.is_wall(m) {
                 return [0.0; 2];
             }
             let (mut v, mut rate) = (0.0, 0.0);
-            for (of, (sin, cos)) in responses.iter().zip(&phases) {
-                v += of.cos[m] * cos + of.sin[m] * sin;
-                rate += of.frequency * (of.sin[m] * cos - of.cos[m] * sin);
+            for (Component { frequency, cos: c, sin: s, .. }, (sin, cos)) in
+                responses.iter().zip(&phases)
+            {
+                v += c[m] * cos + s[m] * sin;
+                rate += frequency * (s[m] * cos - c[m] * sin);
             }
             let (u, quadrature) = (u[m] - v, (start.velocities[m - 1] - rate) / w);
             [u * cos - quadrature * sin, u * sin + quadrature * cos]
         };
-        let part = |frequency: f64, of: &dyn Fn(usize) -> [f64; 2]| {
+        let part = |frequency: f64, amplitudes: &dyn Fn(usize) -> [f64; 2]| {
             let [mut cos, mut sin] = [0, 1].map(|_| vec![0.0; length]);
             for k in 0..gaps {
-                let [left, right] = topology.sides(k).map(of);
+                let [left, right] = topology.sides(k).map(amplitudes);
                 (cos[k], sin[k]) = (right[0] - left[0], right[1] - left[1]);
             }
             let mut factor = 1.0;
@@ -138,11 +140,13 @@ impl Gaps {
             });
             Part { frequency, rate: Rate::new(frequency), cos, sin, factors }
         };
-        let forced = responses.iter().map(|of| part(of.frequency, &|m| [of.cos[m], of.sin[m]]));
+        let forced = responses
+            .iter()
+            .map(|response| part(response.frequency, &|m| [response.cos[m], response.sin[m]]));
         let parts: Vec<Part> = std::iter::once(part(w, &free)).chain(forced).collect();
         let bend = |k: usize| {
-            let of = |part: &Part| part.frequency * part.frequency * part.reach(k);
-            parts[1..].iter().map(of).sum()
+            let bend = |part: &Part| part.frequency * part.frequency * part.reach(k);
+            parts[1..].iter().map(bend).sum()
         };
         Ok(Gaps {
             topology,
@@ -203,7 +207,7 @@ impl Gaps {
                 let k = first + look.trailing_zeros() as usize;
                 look &= look - 1;
                 if k < self.topology.gaps() {
-                    let start = self.at(k, &self.now);
+                    let start = self.width_and_rate(k, &self.now);
                     self.locate(k, (0.0, start), step, tally);
                 }
             }
@@ -212,7 +216,7 @@ impl Gaps {
 
     /// Evaluates gap k and its rate at given phases.
     #[inline(always)]
-    fn at(&self, k: usize, phases: &[(f64, f64)]) -> [f64; 2] {
+    fn width_and_rate(&self, k: usize, phases: &[(f64, f64)]) -> [f64; 2] {
         let parts = self.parts.iter().zip(phases);
         parts.fold([self.spacing, 0.0], |[f, rate], (part, (sin, cos))| {
             let [a, b] = [part.cos[k], part.sin[k]];
@@ -223,7 +227,7 @@ impl Gaps {
     /// Adds the zero of gap k in the step from a time on, with width and rate then, if it closes.
     fn locate(&mut self, k: usize, (from, start): (f64, [f64; 2]), step: &Step, tally: &mut Tally) {
         tally.cost.evaluations += 2;
-        let mut end = self.at(k, step.phases);
+        let mut end = self.width_and_rate(k, step.phases);
         if start[0] <= 0.0 && start[1] < 0.0 {
             self.roots.push((from, k, -start[1]));
             return;
@@ -235,7 +239,7 @@ impl Gaps {
         }
         let half = 0.5 * self.h;
         let (mut low, mut high) = (from - half, half);
-        let gap = Polynomial::of(self, k);
+        let gap = Polynomial::about_middle(self, k);
         let value = |x: f64| gap.value(x, self.terms);
         if is_open {
             // Where the tangents at both ends meet above zero, so does a gap that is convex.
@@ -283,9 +287,9 @@ impl Gaps {
     /// Lets gap k be hit, `s` after the beginning of the step.
     fn hit(&mut self, (s, k, speed): (f64, usize, f64), step: &Step, tally: &mut Tally) {
         let rebound = (self.restitution * speed).max(self.stop);
-        let at = step.from().after(s);
+        let instant = step.from().after(s);
         for (now, part) in self.now.iter_mut().zip(&self.parts) {
-            *now = part.rate.sin_cos(at);
+            *now = part.rate.sin_cos(instant);
         }
         let (sin, cos) = self.now[0];
         let jumps = jumps(speed + rebound, 0.0, self.topology.inverse_masses(k));
@@ -300,9 +304,9 @@ impl Gaps {
         self.roots.retain(|root| root.1 != k && Some(root.1) != before && Some(root.1) != after);
         for j in std::iter::once(k).chain(self.topology.near(k)) {
             self.sag[j] = self.bend(j) * self.h * self.h / 8.0;
-            let low = u64::from(self.at(j, step.phases)[0] < self.sag[j]) << (j % WORD);
+            let low = u64::from(self.width_and_rate(j, step.phases)[0] < self.sag[j]) << (j % WORD);
             self.low[j / WORD] = self.low[j / WORD] & !(1 << (j % WORD)) | low;
-            let start = if j == k { [0.0, rebound] } else { self.at(j, &self.now) };
+            let start = if j == k { [0.0, rebound] } else { self.width_and_rate(j, &self.now) };
             self.locate(j, (s, start), step, tally);
         }
     }
@@ -321,7 +325,7 @@ struct Polynomial {
 
 impl Polynomial {
     #[inline(always)]
-    fn of(gaps: &Gaps, k: usize) -> Polynomial {
+    fn about_middle(gaps: &Gaps, k: usize) -> Polynomial {
         let mut terms = [0.0; TERMS];
         terms[0] = gaps.spacing;
         for (part, (sin, cos)) in gaps.parts.iter().zip(&gaps.middle) {
@@ -386,7 +390,8 @@ mod tests {
             Scenario::given(&Chain { masses: 1, ..Chain::default() }, vec![[0.18, 0.24]]);
         let initial = Initial::Free(vec![[0.3, 0.4]]);
         let scenario = Scenario { forcing_frequency: 2.0, initial, ..scenario.unwrap() };
-        let task = Task { scenario: &scenario, start: &State::of(&scenario), until: 1.0 };
+        let task =
+            Task { scenario: &scenario, start: &State::from_scenario(&scenario), until: 1.0 };
         let mut gaps = Gaps::new(task, 0.0).unwrap();
         for (h, terms) in [(0.5, 16), (0.1, 11), (1e-3, ROUGH)] {
             gaps.lengthen(h);

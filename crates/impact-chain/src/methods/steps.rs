@@ -48,7 +48,8 @@ pub struct Steps {
 
 /// The phases at the ends of whole steps from a number on.
 struct Piece {
-    of: (Vec<Rate>, Instant, u64, u64),
+    /// The rates, the start, the bits of the length of a step, and the number of the first.
+    key: (Vec<Rate>, Instant, u64, u64),
     phases: Vec<(f64, f64)>,
 }
 
@@ -91,14 +92,15 @@ impl Steps {
     /// same frequencies, start and step.
     fn shared(&self, first: u64, number: usize) -> Rc<Piece> {
         thread_local!(static LAST: RefCell<Option<Rc<Piece>>> = const { RefCell::new(None) });
-        let of = (self.rates.clone(), self.begin, self.h.to_bits(), first);
+        let key = (self.rates.clone(), self.begin, self.h.to_bits(), first);
         LAST.with_borrow_mut(|last| {
             let length = number * self.rates.len();
-            let kept = last.take().filter(|it| it.of == of && it.phases.len() >= length);
-            let piece = kept.unwrap_or_else(|| {
-                let at = |i: u64| self.begin.after((first + i + 1) as f64 * self.h);
-                let phases = |i| self.rates.iter().map(move |rate| rate.sin_cos(at(i)));
-                Rc::new(Piece { of, phases: (0..number as u64).flat_map(phases).collect() })
+            let same = |piece: &Rc<Piece>| piece.key == key && piece.phases.len() >= length;
+            let piece = last.take().filter(same).unwrap_or_else(|| {
+                let end = |i: u64| self.begin.after((first + i + 1) as f64 * self.h);
+                let phases = |i| self.rates.iter().map(move |rate| rate.sin_cos(end(i)));
+                let phases = (0..number as u64).flat_map(phases).collect();
+                Rc::new(Piece { key: key.clone(), phases })
             });
             last.insert(piece).clone()
         })
@@ -129,7 +131,7 @@ mod tests {
         let scenario = Scenario::given(&Chain { masses: 1, ..Chain::default() }, vec![[0.0; 2]]);
         let (scenario, rates) = (scenario.unwrap(), [1.0, 1.4].map(Rate::new).to_vec());
         for number in [8, 15, 24] {
-            let (start, until) = (State::of(&scenario), f64::from(number) * 0.125);
+            let (start, until) = (State::from_scenario(&scenario), f64::from(number) * 0.125);
             let task = Task { scenario: &scenario, start: &start, until };
             let mut ends = Vec::new();
             let steps = Steps::new(task, 0.125, rates.clone()).unwrap();

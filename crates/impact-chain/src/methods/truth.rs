@@ -35,7 +35,7 @@ impl Rival for Truth {
         }
         scenario.check_uniform()?;
         start.displacements(scenario)?;
-        let mut motion = TrueMotion::of(scenario, start);
+        let mut motion = TrueMotion::from_state(scenario, start);
         Ok(Box::new(move |tally| {
             while let Some(hit) = motion.next(until)? {
                 motion.advance(&hit);
@@ -92,7 +92,7 @@ type TruePhases = [[DoubleDouble; 2]; 2];
 
 impl TrueMotion {
     /// Starts exactly at a state: one component of forcing, no contact, walls at both ends.
-    pub fn of(scenario: &Scenario, state: &State) -> TrueMotion {
+    pub fn from_state(scenario: &Scenario, state: &State) -> TrueMotion {
         let rates = [scenario.natural_frequency, scenario.forcing_frequency].map(dd);
         let factor = rates[0] * rates[0] - rates[1] * rates[1];
         let n = scenario.forcing.len();

@@ -69,7 +69,9 @@ fn forces_and_impacts_balance_the_energy() {
         }
         time = end;
     }
-    let error = energy(&engine.state(40.0).unwrap()) - energy(&State::of(&scenario)) - work + loss;
+    let error =
+        energy(&engine.state(40.0).unwrap()) - energy(&State::from_scenario(&scenario)) - work
+            + loss;
     assert!(impacts > 100 && loss > 1.0 && error.abs() < 1e-10, "{impacts} {loss} {error:e}");
 }
 

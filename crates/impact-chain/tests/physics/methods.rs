@@ -3,7 +3,7 @@
 use crate::{drawn, given, run};
 use impact_chain::methods::{
     Advancement, Certified, Cost, Method, MoreauJean, Penalty, RungeKutta, Sampled, Task, Verlet,
-    VerletAbreast,
+    VerletAbreast, Window,
 };
 use impact_chain::{Boundary, Chain, Engine, Error, Impact, Initial, NormalPairs, Scenario, State};
 
@@ -25,7 +25,7 @@ fn trace(
     until: f64,
 ) -> (Vec<Impact>, Result<Cost, Error>) {
     let mut impacts = Vec::new();
-    let task = Task { scenario, start: &State::of(scenario), until };
+    let task = Task { scenario, start: &State::from_scenario(scenario), until };
     let cost = method.run(task, &mut |impact| {
         impacts.push(impact);
         true
@@ -34,7 +34,7 @@ fn trace(
 }
 
 fn impacts(method: &dyn Method, scenario: &Scenario, until: f64) -> Vec<Impact> {
-    method.impacts(Task { scenario, start: &State::of(scenario), until }).unwrap()
+    method.impacts(Task { scenario, start: &State::from_scenario(scenario), until }).unwrap()
 }
 
 fn all() -> Vec<Box<dyn Method>> {
@@ -164,7 +164,7 @@ fn vectors_change_no_bits() {
 #[test]
 fn no_method_loops_or_panics_on_bad_data() {
     let good = chain(2, Boundary::Walls, 0.3, 0);
-    let mut overlapped = State::of(&good);
+    let mut overlapped = State::from_scenario(&good);
     overlapped.positions.swap(0, 1);
     let broken = Scenario { restitution: f64::NAN, ..good.clone() };
     // A speed of 1e7 between walls: ten million impacts a unit of time, or none found.
@@ -176,17 +176,21 @@ fn no_method_loops_or_panics_on_bad_data() {
         };
         let overlap = run(&good, &overlapped, 9.0);
         assert!(matches!(overlap, Err(Error::Overlap { gap: 1, .. })), "{name}");
-        let other = State::of(&chain(3, Boundary::Walls, 0.1, 0));
-        for refused in [run(&broken, &State::of(&good), 9.0), run(&good, &other, 9.0)] {
+        let other = State::from_scenario(&chain(3, Boundary::Walls, 0.1, 0));
+        for refused in [run(&broken, &State::from_scenario(&good), 9.0), run(&good, &other, 9.0)] {
             assert!(matches!(refused, Err(Error::Input { .. })), "{name}");
         }
-        assert!(run(&good, &State::of(&good), f64::NAN).is_err(), "{name}");
-        match run(&hot, &State::of(&hot), 1.0) {
+        assert!(run(&good, &State::from_scenario(&good), f64::NAN).is_err(), "{name}");
+        match run(&hot, &State::from_scenario(&hot), 1.0) {
             Err(Error::Work { time, .. }) => assert!(time <= 1.0, "{name}"),
             other => assert!(other.is_ok(), "{name}: {other:?}"),
         }
         let ring = Scenario { boundary: Boundary::Ring, ..free(&[[0.3, 0.1]], 0.5) };
-        assert_eq!(run(&ring, &State::of(&ring), 9.0).unwrap().impacts, 0, "{name}: one on a ring");
+        assert_eq!(
+            run(&ring, &State::from_scenario(&ring), 9.0).unwrap().impacts,
+            0,
+            "{name}: one on a ring"
+        );
     }
     for step in [0.0, -1.0, f64::NAN, f64::INFINITY, 2.0, 1e-300] {
         let wrong: [&dyn Method; 7] = [
@@ -360,8 +364,10 @@ fn chains_abreast_do_not_touch() {
         found[chain].len() < 200 - 4 * chain
     };
     method.run_all(&all, 30.0, None, &mut take).unwrap();
-    let counts = [false, true]
-        .map(|one| method.run_all(&all, 30.0, Some((10.0, one)), &mut |_, _| false).unwrap().1);
+    let counts = [false, true].map(|ends_with_one| {
+        let window = Some(Window { after: 10.0, ends_with_one });
+        method.run_all(&all, 30.0, window, &mut |_, _| false).unwrap().1
+    });
     for (chain, (scenario, found)) in all.iter().zip(&found).enumerate() {
         let alone = impacts(&method, scenario, 30.0);
         assert!(alone[..alone.len().min(200 - 4 * chain)] == *found, "{chain}");

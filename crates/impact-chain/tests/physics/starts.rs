@@ -7,7 +7,7 @@ use impact_chain::{Chain, Engine, Scenario, Start, State};
 fn the_state_at_the_start_is_that_of_the_engine() {
     for start in [Start::Rest, Start::Zero, Start::Random] {
         let scenario = drawn(&Chain { masses: 7, start, ..Chain::default() }, 0.1, "state", 0);
-        let state = State::of(&scenario);
+        let state = State::from_scenario(&scenario);
         let of_engine = Engine::new(&scenario).unwrap().state(0.0).unwrap();
         let near = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-14);
         assert!(near(&state.positions, &of_engine.positions), "{start:?}");

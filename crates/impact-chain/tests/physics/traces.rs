@@ -66,7 +66,8 @@ fn impacts_have_the_order_and_times_of_the_reference() {
 fn the_true_motion_has_digits_beyond_doubles() {
     let chain = Chain { masses: 20, natural_frequency: 1.3, spacing: 2.0, ..Chain::default() };
     let scenario = drawn(&chain, 0.3, "truth", 1);
-    let found = TrueMotion::of(&scenario, &State::of(&scenario)).run(50.0).unwrap();
+    let found =
+        TrueMotion::from_state(&scenario, &State::from_scenario(&scenario)).run(50.0).unwrap();
     let exact = Reference::new(&scenario).run(50.0).unwrap();
     assert!(found.len() > 100 && found.len() == exact.len(), "{} {}", found.len(), exact.len());
     for ((found, _), exact) in found.iter().zip(&exact) {
@@ -75,7 +76,7 @@ fn the_true_motion_has_digits_beyond_doubles() {
     }
     // d, and parts of 5 and 10 of each mass, the latter over ω² − Ω² = −1.
     let two = crate::given(vec![[3.0, 4.0], [-3.0, -4.0]], vec![[6.0, 8.0], [-6.0, -8.0]]);
-    let motion = TrueMotion::of(&two, &State::of(&two));
+    let motion = TrueMotion::from_state(&two, &State::from_scenario(&two));
     assert_eq!([0, 1, 2].map(|gap| motion.scale(gap).round()), [16.0, 31.0, 16.0]);
 }
 
