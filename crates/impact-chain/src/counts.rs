@@ -36,6 +36,7 @@ impl Default for Protocol {
 
 impl Protocol {
     /// Returns the end of the window, T + W.
+    #[must_use]
     pub fn end(&self) -> f64 {
         self.transient + self.window
     }
@@ -148,6 +149,7 @@ fn rising(times: impl Iterator<Item = f64>) -> Vec<f64> {
 
 impl Watch {
     /// Creates the counts of a run of this chain, all of them zero.
+    #[must_use]
     pub fn new(chain: &Chain, windows: &[Protocol]) -> Self {
         let gaps = chain.gaps();
         let transients = rising(windows.iter().map(|window| window.transient));
@@ -289,6 +291,7 @@ impl Watch {
     }
 
     /// Returns which gaps had an impact in one of the windows, or `None` for another window.
+    #[must_use]
     pub fn gaps_hit(&self, window: &Protocol) -> Option<Vec<bool>> {
         self.windows.iter().find(|one| *one == window)?;
         let transient = self.transients.partition_point(|time| *time < window.transient);

@@ -69,6 +69,7 @@ impl std::error::Error for Error {}
 
 impl Error {
     /// Returns the kind of the error.
+    #[must_use]
     pub fn kind(&self) -> ErrorKind {
         match self {
             Error::Input { .. } => ErrorKind::Input,
@@ -78,6 +79,7 @@ impl Error {
     }
 
     /// Returns the name of the field or argument that is refused, or `None` if a run was ended.
+    #[must_use]
     pub fn field(&self) -> Option<&str> {
         match self {
             Error::Input { field, .. } | Error::Overlap { field, .. } => Some(field),

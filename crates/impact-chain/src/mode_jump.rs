@@ -219,6 +219,7 @@ impl Passing {
 
     /// Returns whether the mode surely jumps (true) or surely climbs (false), or `None` if neither
     /// is sure.
+    #[must_use]
     pub fn is_jump(&self) -> Option<bool> {
         let [low, high] = self.clearance?.interval;
         (low > 0.0 || high < 0.0).then_some(low > 0.0)
@@ -249,6 +250,7 @@ pub struct Histogram {
 }
 
 /// Measures the jump in samples at rising σ.
+#[must_use]
 pub fn mode_jump(samples: &[Sample<'_>], histogram: Histogram) -> ModeJump {
     let Histogram { gaps, half_width } = histogram;
     let read = |halves: &dyn Fn(&Sample<'_>) -> [Vec<u32>; 2]| {

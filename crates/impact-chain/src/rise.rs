@@ -39,6 +39,7 @@ impl Mean {
 
     /// Returns the mean with its standard error and the normal interval, or `None` if it has no
     /// error.
+    #[must_use]
     pub fn estimate(&self) -> Option<Estimate> {
         Some(with_error(self.value, self.error?))
     }
@@ -115,6 +116,7 @@ impl Curve {
     ///
     /// # Panics
     /// Panics if the counts have no window of this number, or a count is above `gaps`.
+    #[must_use]
     pub fn new(data: &CurveData) -> Curve {
         let &CurveData { window, protocol, sigmas, counts, compared, gaps, seed } = data;
         let mut distinct: Vec<&[Option<u32>]> = Vec::with_capacity(counts.len());
@@ -156,6 +158,7 @@ impl RisePoint {
     ///
     /// # Panics
     /// Panics if the counts have no such window, or one is above the largest.
+    #[must_use]
     pub fn new(sigma: f64, counts: &Counts, column: Column) -> RisePoint {
         let Column { window, largest } = column;
         let mut histogram = vec![0; largest + 1];

@@ -105,6 +105,7 @@ impl Scenario {
     /// Writes the scenario as JSON in one line, from which [`Scenario::from_json`] reads the same,
     /// without the places of the walls on a ring. One that [`Scenario::validate`] refuses is not
     /// read again, or as another.
+    #[must_use]
     pub fn to_json(&self) -> String {
         serde_json::to_string(self).unwrap_or_default()
     }
@@ -174,7 +175,7 @@ fn parse(text: &str) -> Result<ScenarioFile, Error> {
         let field = match path.as_str() {
             "." | "?" => "scenario",
             "" => "unnamed field",
-            named => named,
+            path => path,
         };
         if is_not_finite(text, error.inner()) {
             return Error::input(field, "it is not finite", "give a finite number");

@@ -13,6 +13,6 @@ pub fn without_wide_vectors() {
 }
 
 /// Returns the vectors to compute with.
-pub fn level() -> Level {
+pub fn vector_level() -> Level {
     if GENERIC.load(Ordering::Relaxed) { Level::baseline() } else { Level::new() }
 }

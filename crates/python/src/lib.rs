@@ -28,7 +28,7 @@ fn to_python(error: Error) -> PyErr {
 
 /// Computes without the lock of Python, which sees Ctrl-C all the while: `compute` then finds the
 /// flag set, and what it returns is dropped.
-fn apart<T: Send>(
+fn compute_detached<T: Send>(
     py: Python<'_>,
     compute: impl FnOnce(&AtomicBool) -> Result<T, Error> + Send,
 ) -> PyResult<T> {
@@ -223,15 +223,15 @@ fn engine(scenario: &Scenario, start: Start, first: f64) -> PyResult<Engine> {
     Ok(engine)
 }
 
-/// Runs an engine to `until`, and gives all events to `take` until Ctrl-C.
+/// Runs an engine to `until`, and gives all events to `receive` until Ctrl-C.
 fn run(
     engine: &mut Engine,
     until: f64,
     stop: &AtomicBool,
-    mut take: impl FnMut(&Event),
+    mut receive: impl FnMut(&Event),
 ) -> Result<(), Error> {
     let observer = |event: &Event, _: &Engine| {
-        take(event);
+        receive(event);
         if stop.load(Relaxed) { Break(()) } else { Continue(()) }
     };
     engine.run(until, observer).map(drop)
@@ -259,7 +259,7 @@ fn impacts<'py>(
     start: Start,
 ) -> PyResult<(Array<'py>, Array<'py, u64>, Array<'py>)> {
     let mut engine = engine(scenario, start, until)?;
-    let impacts = apart(py, |stop| {
+    let impacts = compute_detached(py, |stop| {
         let mut impacts = Vec::new();
         run(&mut engine, until, stop, |event| {
             if let Event::Impact(impact) = event {
@@ -289,7 +289,7 @@ fn events<'py>(
     start: Start,
 ) -> PyResult<Bound<'py, PyList>> {
     let mut engine = engine(scenario, start, until)?;
-    let events = apart(py, |stop| {
+    let events = compute_detached(py, |stop| {
         let mut events = Vec::new();
         run(&mut engine, until, stop, |event| events.push(event.clone()))?;
         Ok(events)
@@ -335,7 +335,7 @@ fn states<'py>(
     }
     let shape = [at.len(), scenario.0.forcing.len()];
     let mut engine = engine(scenario, start, at.first().copied().unwrap_or(f64::MAX))?;
-    let (positions, velocities) = apart(py, |stop| {
+    let (positions, velocities) = compute_detached(py, |stop| {
         let (mut positions, mut velocities) = (Vec::new(), Vec::new());
         for time in at {
             run(&mut engine, time, stop, |_| ())?;
@@ -393,7 +393,7 @@ fn ensemble<'py>(
     let seed = whole_number("seed", seed)?;
     let (chain, windows) = (chain_from(chain)?, [Protocol { transient, window }]);
     let until = windows[0].end();
-    let counts = apart(py, |stop| {
+    let counts = compute_detached(py, |stop| {
         let stopped = || stop.load(Relaxed);
         let counting = Counting::new(&chain, &windows, until);
         let draw = |index| {

@@ -15,7 +15,7 @@ mod roots;
 mod slot;
 
 use crate::forcing::gap_amplitudes;
-use crate::vectors::level;
+use crate::vectors::vector_level;
 use crate::{Boundary, Chain, Counts, Engine, Error, Protocol, Scenario, Watch};
 use fearless_simd::{Level, dispatch};
 use grid::Grid;
@@ -103,6 +103,7 @@ impl Abreast {
     /// no windows. Returns `None` if all of them are left to the engine: with r near 0, where
     /// masses stick, r = 1, where it keeps the energy, rings of one or two masses, and very long
     /// runs.
+    #[must_use]
     pub fn new(chain: &Chain, windows: &[Protocol], until: f64) -> Option<Abreast> {
         let frequencies = [chain.natural_frequency, chain.forcing_frequency];
         let mut watch = Watch::new(chain, windows);
@@ -126,7 +127,7 @@ impl Abreast {
     /// has to do is not ended.
     #[must_use]
     pub fn until_first_after(mut self, time: f64) -> Abreast {
-        self.plan.enough = time;
+        self.plan.end_after = time;
         self
     }
 
@@ -143,7 +144,7 @@ impl Abreast {
         scenarios: &[Scenario],
         stopped: &dyn Fn() -> bool,
     ) -> Vec<Option<Realisation>> {
-        self.run_at(level(), scenarios, stopped)
+        self.run_at(vector_level(), scenarios, stopped)
     }
 
     fn run_at(
@@ -196,6 +197,7 @@ impl Realisation {
 
     /// Returns free parts (a_j, b_j) of the masses at the end that give the same gaps; on a ring
     /// those of the first mass are zero.
+    #[must_use]
     pub fn free_parts(&self, chain: &Chain) -> Vec<[f64; 2]> {
         let first = usize::from(chain.boundary == Boundary::Ring);
         let mut sum = [0.0; 2];

@@ -1,6 +1,6 @@
 //! Defines the trait of all ways to simulate a chain.
 
-use crate::impact::{Impact, Sink, collect};
+use crate::impact::{Impact, Sink, collect_impacts};
 use crate::{Error, Graze, Scenario, State};
 
 /// What no other crate can implement.
@@ -26,6 +26,7 @@ pub struct Cost {
 
 impl Cost {
     /// Returns the evaluations of an impact, or `None` without impacts.
+    #[must_use]
     pub fn evaluations_per_impact(&self) -> Option<f64> {
         (self.impacts > 0).then(|| self.evaluations as f64 / self.impacts as f64)
     }
@@ -63,7 +64,7 @@ pub trait Method: Sealed + Sync {
     /// # Errors
     /// Those of [`run`](Method::run).
     fn first(&self, task: Task) -> Result<Option<Impact>, Error> {
-        Ok(collect(1, |sink| self.run(task, sink))?.pop())
+        Ok(collect_impacts(1, |sink| self.run(task, sink))?.pop())
     }
 
     /// Returns all impacts, in order.
@@ -71,6 +72,6 @@ pub trait Method: Sealed + Sync {
     /// # Errors
     /// Those of [`run`](Method::run).
     fn impacts(&self, task: Task) -> Result<Vec<Impact>, Error> {
-        collect(usize::MAX, |sink| self.run(task, sink))
+        collect_impacts(usize::MAX, |sink| self.run(task, sink))
     }
 }

@@ -4,7 +4,7 @@ use super::method::{Cost, Method, Sealed, Task};
 use super::steps::{Step, Steps, check_end};
 use super::tally::{Stop, Tally};
 use crate::search::clock::Rate;
-use crate::vectors::level;
+use crate::vectors::vector_level;
 use crate::{Error, Sink};
 use fearless_simd::{Simd, dispatch};
 
@@ -48,11 +48,14 @@ pub fn run_steps(
     mut stepper: impl Stepper,
 ) -> Result<Run, Error> {
     let steps = Steps::new(task, h, rates)?;
-    Ok(Box::new(move |tally| dispatch!(level(), simd => all(simd, &steps, &mut stepper, tally))))
+    Ok(Box::new(
+        move |tally| dispatch!(vector_level(), simd => make_steps(simd, &steps, &mut stepper, tally)),
+    ))
 }
 
+/// Makes all steps of a run.
 #[inline(always)]
-fn all<S: Simd>(
+fn make_steps<S: Simd>(
     simd: S,
     steps: &Steps,
     stepper: &mut impl Stepper,

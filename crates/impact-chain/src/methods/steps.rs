@@ -59,7 +59,7 @@ impl Steps {
         check_range("step", h, SHORTEST, 1.0 / scenario.fastest())?;
         let count = ((until - start.time).max(0.0) / h).ceil();
         if count > MAX_STEPS {
-            return Err(too_many(count, "step"));
+            return Err(too_many_steps(count, "step"));
         }
         let (begin, end) = (Instant::at(start.time), Instant::at(until));
         Ok(Steps { rates, begin, end, h, count: count as u64 })
@@ -67,15 +67,15 @@ impl Steps {
 
     /// Hands on each step in turn.
     #[inline(always)]
-    pub fn each<E>(&self, mut one: impl FnMut(&Step) -> Result<(), E>) -> Result<(), E> {
+    pub fn each<E>(&self, mut visit: impl FnMut(&Step) -> Result<(), E>) -> Result<(), E> {
         let Steps { ref rates, begin, end, h, count } = *self;
         let whole = count.saturating_sub(1);
         for first in (0..whole).step_by(KEPT) {
             let number = (whole - first).min(KEPT as u64) as usize;
-            let piece = self.shared(first, number);
+            let piece = self.tabulated(first, number);
             let phases = piece.phases.chunks_exact(rates.len()).take(number);
             for (number, phases) in (first..).zip(phases) {
-                one(&Step { begin, end: None, whole: h, number, h, phases })?;
+                visit(&Step { begin, end: None, whole: h, number, h, phases })?;
             }
         }
         if count > 0 {
@@ -83,14 +83,14 @@ impl Steps {
             let from = begin.after(whole as f64 * h);
             let last = end.since(from).max(0.0);
             let (number, phases) = (whole, &phases[..]);
-            one(&Step { begin, end: Some(end), whole: h, number, h: last, phases })?;
+            visit(&Step { begin, end: Some(end), whole: h, number, h: last, phases })?;
         }
         Ok(())
     }
 
     /// Tabulates the phases of some steps. The last table of a thread serves all chains with the
     /// same frequencies, start and step.
-    fn shared(&self, first: u64, number: usize) -> Rc<Piece> {
+    fn tabulated(&self, first: u64, number: usize) -> Rc<Piece> {
         thread_local!(static LAST: RefCell<Option<Rc<Piece>>> = const { RefCell::new(None) });
         let key = (self.rates.clone(), self.begin, self.h.to_bits(), first);
         LAST.with_borrow_mut(|last| {
@@ -107,7 +107,7 @@ impl Steps {
     }
 }
 
-pub fn too_many(steps: f64, field: &str) -> Error {
+pub fn too_many_steps(steps: f64, field: &str) -> Error {
     let remedy = format!("give a larger {field} or an earlier end, for at most {MAX_STEPS:e}");
     Error::input(field, format!("{steps:.1e} steps are needed"), remedy)
 }

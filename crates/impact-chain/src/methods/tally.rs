@@ -1,7 +1,7 @@
 //! Counts the work of a rival, and bounds it.
 
 use super::method::Cost;
-use super::steps::{MAX_STEPS, too_many};
+use super::steps::{MAX_STEPS, too_many_steps};
 use crate::budget::Budget;
 use crate::topology::Topology;
 use crate::{Error, Impact, Scenario, Sink};
@@ -76,7 +76,7 @@ impl<'a> Tally<'a> {
     pub fn step(&mut self) -> Result<(), Stop> {
         self.cost.steps += 1;
         if self.cost.steps as f64 > MAX_STEPS {
-            return Err(too_many(self.cost.steps as f64, "tolerance").into());
+            return Err(too_many_steps(self.cost.steps as f64, "tolerance").into());
         }
         Ok(())
     }

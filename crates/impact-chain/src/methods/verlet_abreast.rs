@@ -6,7 +6,7 @@ use crate::forcing::gap_amplitudes;
 use crate::impact::jumps;
 use crate::search::clock::Rate;
 use crate::topology::Topology;
-use crate::vectors::level;
+use crate::vectors::vector_level;
 use crate::{Error, Impact, Scenario, Sink, State};
 use fearless_simd::{dispatch, f32x16, prelude::*};
 
@@ -89,7 +89,7 @@ impl VerletAbreast {
         let steps = Steps::new(task, h, vec![Rate::new(like.forcing_frequency)])?;
         for group in ready.chunks(LANES) {
             let mut lanes = Lanes { until, window, ..Lanes::new(like, h, group) };
-            dispatch!(level(), simd => lanes.run(simd, &steps, sink));
+            dispatch!(vector_level(), simd => lanes.run(simd, &steps, sink));
             cost.impacts += lanes.impacts;
             cost.steps += lanes.steps;
             for (lane, (chain, _)) in group.iter().enumerate() {

@@ -189,7 +189,7 @@ impl Coefficients {
     }
 
     #[inline(always)]
-    fn to_array(&self) -> [f64; N] {
+    fn to_array(self) -> [f64; N] {
         let [[a, b], [c, d], [e, f], [g, h]] = self.row.map(Pair::to_array);
         [a, b, c, d, e, f, g, h]
     }

@@ -295,13 +295,13 @@ fn velocities_after_a_collective_hit_are_those_of_the_law() {
                 let mut v: Vec<f64> = random.iter().map(|pair| pair[0]).collect();
                 let masses: Vec<(f64, f64)> = v.iter().map(|&v| (0.0, v)).collect();
                 let mut engine = Engine::new(&scene(&masses, &vec![0.0; n], r)).unwrap();
-                let found = run(&mut engine, 1e-11);
+                let impacts = run(&mut engine, 1e-11);
                 let expected = if r == 0.0 {
                     inelastic(&v)
                 } else {
                     let hits = sequential(&mut v, r);
-                    let alike = hits.iter().zip(&found).filter(|(a, b)| a.0 == b.gap).count();
-                    assert!(alike >= hits.len().min(10), "{r}: {hits:?} {found:?}");
+                    let alike = hits.iter().zip(&impacts).filter(|(a, b)| a.0 == b.gap).count();
+                    assert!(alike >= hits.len().min(10), "{r}: {hits:?} {impacts:?}");
                     v
                 };
                 for (a, b) in engine.state(1e-11).unwrap().velocities.iter().zip(&expected) {

@@ -32,12 +32,14 @@ fn a_run_goes_on_from_any_state() {
             let mut again = Engine::from_state(&scenario, &state).unwrap();
             let [held, kept] = [&engine, &again].map(|engine| engine.contacts(now).unwrap());
             contacts += held.len();
-            let gaps = |all: &[(usize, f64)]| all.iter().map(|one| one.0).collect::<Vec<_>>();
+            let gaps = |contacts: &[(usize, f64)]| -> Vec<usize> {
+                contacts.iter().map(|(gap, _)| *gap).collect()
+            };
             assert_eq!(gaps(&held), gaps(&kept), "{number}");
-            let (expected, found) = (engine.clone().next_impact(1e4), again.next_impact(1e4));
-            let [expected, found] = [expected, found].map(|next| next.unwrap().unwrap());
-            let off = (found.time - expected.time).abs() * expected.closing_speed.min(1.0);
-            assert!(found.gap == expected.gap && off < 1e-11, "{number}: {found:?} {expected:?}");
+            let next = [&mut engine.clone(), &mut again].map(|engine| engine.next_impact(1e4));
+            let [expected, impact] = next.map(|next| next.unwrap().unwrap());
+            let off = (impact.time - expected.time).abs() * expected.closing_speed.min(1.0);
+            assert!(impact.gap == expected.gap && off < 1e-11, "{number}: {impact:?} {expected:?}");
         }
         assert_eq!(contacts > 0, sigma == 1.0);
     }
