@@ -50,7 +50,7 @@ impl Component {
         Component::list(scenario, |big_w, force| response(w, big_w, force))
     }
 
-    /// Lists the components, with amplitudes that `transform` computes from a frequency and a force.
+    /// Lists the components, with amplitudes that `transform` computes from frequency and force.
     fn list(scenario: &Scenario, transform: impl Fn(f64, [f64; 2]) -> [f64; 2]) -> Vec<Component> {
         let component = |(frequency, pairs): (f64, &[[f64; 2]])| {
             let walled = |i: usize| {

@@ -46,7 +46,8 @@ pub struct Scenario {
     /// Further components of the forcing, Eq. (3); the paper has none.
     pub overtones: Vec<Overtone>,
     /// Equilibria of left wall, masses 1..n and right wall, or `None` if they are j d, as in the
-    /// paper. A constant force F on a mass shifts its place by F/ω². On a ring the walls' have no meaning.
+    /// paper. A constant force F on a mass shifts its place by F/ω². On a ring the walls' have no
+    /// meaning.
     pub places: Option<Vec<f64>>,
 }
 

@@ -199,7 +199,8 @@ fn parse(text: &str) -> Result<ScenarioFile, Error> {
 fn is_not_finite(text: &str, error: &serde_json::Error) -> bool {
     let line = text.lines().nth(error.line().saturating_sub(1)).unwrap_or_default();
     let rest = line.get(error.column().saturating_sub(1)..).unwrap_or_default();
-    error.is_syntax() && ["NaN", "Infinity"].iter().any(|name| rest.starts_with(name))
+    let names = ["NaN", "Infinity", "-Infinity"];
+    error.is_syntax() && names.iter().any(|name| rest.starts_with(name))
 }
 
 impl ScenarioFile {
@@ -317,5 +318,20 @@ mod tests {
         assert_eq!(refused, "walls: a ring has none; leave it out");
         let far = Scenario::from_json(r#"{"walls":[0,1e300],"forcing":[[0,0]]}"#).unwrap_err();
         assert!(far.to_string().starts_with("walls: "), "{far}");
+    }
+
+    #[test]
+    fn numbers_that_are_not_finite_and_overlaps_are_called_by_their_field() {
+        for (text, expected) in [
+            (r#"{"forcing": [[NaN, 0]]}"#, "forcing[0][0]: it is not finite; give a finite number"),
+            (r#"{"spacing":-Infinity}"#, "spacing: it is not finite; give a finite number"),
+            (
+                r#"{"forcing":[[0,0]],"initial":{"at":{"positions":[-1],"velocities":[0]}}}"#,
+                "initial.at.positions: gap 0 starts overlapped by 1e0",
+            ),
+        ] {
+            let refused = Scenario::from_json(text).unwrap_err().to_string();
+            assert!(refused.starts_with(expected), "{refused}");
+        }
     }
 }

@@ -23,12 +23,13 @@ pub struct Flights {
     pub restitution: f64,
     /// No impact leaves a gap opening more slowly.
     pub stop: f64,
-    omega: f64,
+    pub omega: f64,
     /// ω, in turns.
     turns: Rate,
     /// Free parts (a_j, b_j) of all bodies; 0 for the walls.
-    free: Vec<[f64; 2]>,
-    forced: Vec<Component>,
+    pub free: Vec<[f64; 2]>,
+    /// The responses to the components of the forcing.
+    pub forced: Vec<Component>,
 }
 
 /// (sin, cos) of ωt and of each Ωt.

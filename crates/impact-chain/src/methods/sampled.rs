@@ -1,5 +1,6 @@
 //! Simulates by sampling gaps on a grid of times; Newton's method finds zeros between.
 
+use super::flights::Flights;
 use super::method::Task;
 use super::rival::{Rival, Run, Stepper, run_steps};
 use super::sign_change::is_open;
@@ -102,30 +103,11 @@ struct Gaps {
 
 impl Gaps {
     fn new(task: Task, stop: f64) -> Result<Gaps, Error> {
-        let Task { scenario, start, .. } = task;
-        scenario.check_uniform()?;
-        let u = start.displacements(scenario)?;
-        let topology = Topology::new(scenario.forcing.len(), scenario.boundary);
-        let (w, gaps) = (scenario.natural_frequency, topology.gaps());
-        let responses = Component::responses(scenario);
+        let Flights { topology, spacing, restitution, omega, free, forced, .. } =
+            Flights::new(task)?;
+        let gaps = topology.gaps();
         let length = gaps.next_multiple_of(8);
-        let begin = Instant::at(start.time);
-        let phases: Vec<_> = responses.iter().map(|response| response.phase(begin)).collect();
-        let (sin, cos) = Rate::new(w).sin_cos(begin);
-        let free = |m: usize| {
-            if topology.is_wall(m) {
-                return [0.0; 2];
-            }
-            let (mut v, mut rate) = (0.0, 0.0);
-            for (Component { frequency, cos: c, sin: s, .. }, (sin, cos)) in
-                responses.iter().zip(&phases)
-            {
-                v += c[m] * cos + s[m] * sin;
-                rate += frequency * (s[m] * cos - c[m] * sin);
-            }
-            let (u, quadrature) = (u[m] - v, (start.velocities[m - 1] - rate) / w);
-            [u * cos - quadrature * sin, u * sin + quadrature * cos]
-        };
+        let begin = Instant::at(task.start.time);
         let part = |frequency: f64, amplitudes: &dyn Fn(usize) -> [f64; 2]| {
             let [mut cos, mut sin] = [0, 1].map(|_| vec![0.0; length]);
             for k in 0..gaps {
@@ -140,18 +122,18 @@ impl Gaps {
             });
             Part { frequency, rate: Rate::new(frequency), cos, sin, factors }
         };
-        let forced = responses
-            .iter()
-            .map(|response| part(response.frequency, &|m| [response.cos[m], response.sin[m]]));
-        let parts: Vec<Part> = std::iter::once(part(w, &free)).chain(forced).collect();
+        let mut parts = vec![part(omega, &|m| free[m])];
+        for Component { frequency, cos, sin, .. } in &forced {
+            parts.push(part(*frequency, &|m| [cos[m], sin[m]]));
+        }
         let bend = |k: usize| {
             let bend = |part: &Part| part.frequency * part.frequency * part.reach(k);
             parts[1..].iter().map(bend).sum()
         };
         Ok(Gaps {
             topology,
-            spacing: scenario.spacing,
-            restitution: scenario.restitution,
+            spacing,
+            restitution,
             stop,
             forced: (0..length).map(bend).collect(),
             sag: vec![-1.0; length],

@@ -130,8 +130,8 @@ impl<const M: usize> Piece<M> {
         Coefficients { row, slack: SLACK * frame.size }
     }
 
-    /// Guesses the root, from the frame's instant, if f falls from `first` to < 0, or returns `None`
-    /// if it may not.
+    /// Guesses the root, from the frame's instant, if f falls from `first` to < 0, or returns
+    /// `None` if it may not.
     #[inline(always)]
     pub fn only_root(&self, frame: &Frame<M>, first: f64, c: &Coefficients) -> Option<f64> {
         let [b1, b2, b3, b4, b5, b6, b7, b8] = c.to_array();
