@@ -79,7 +79,7 @@ pub struct Total {
     pub simultaneous: u64,
     /// Dips of gaps of which rounding cannot tell whether they reach zero.
     pub undecided: u64,
-    /// The first of these, with the number of its realisation.
+    /// The first of these with the index of its realisation, or `None` if there is no such dip.
     pub first_graze: Option<(u64, Graze)>,
 }
 
@@ -98,10 +98,10 @@ impl Total {
     }
 }
 
-/// Appends each row of `next` to the row of the same window.
-fn extend<T>(rows: &mut [Vec<T>], next: Vec<Vec<T>>) {
-    for (row, next) in rows.iter_mut().zip(next) {
-        row.extend(next);
+/// Appends the values of later realisations to the row of each window.
+fn append<T>(rows: &mut [Vec<T>], later_rows: Vec<Vec<T>>) {
+    for (row, later) in rows.iter_mut().zip(later_rows) {
+        row.extend(later);
     }
 }
 
@@ -110,9 +110,9 @@ impl FromIterator<Counts> for Counts {
         let mut parts = parts.into_iter();
         let mut joined = parts.next().unwrap_or_default();
         for part in parts {
-            extend(&mut joined.distinct, part.distinct);
-            extend(&mut joined.impacts, part.impacts);
-            extend(&mut joined.masses, part.masses);
+            append(&mut joined.distinct, part.distinct);
+            append(&mut joined.impacts, part.impacts);
+            append(&mut joined.masses, part.masses);
             joined.rejected += part.rejected;
             joined.failed += part.failed;
             joined.by_engine += part.by_engine;
@@ -133,7 +133,7 @@ pub struct Watch {
     /// `firsts[transient][gap]`: time of the gap's first impact after the transient, or infinite.
     firsts: Vec<Vec<f64>>,
     /// For each gap the number of transients whose first impact is known.
-    known: Vec<usize>,
+    firsts_known: Vec<usize>,
     /// Times at which windows begin or end, up to the end of the run.
     edges: Vec<f64>,
     /// Impacts until each edge that has passed.
@@ -159,7 +159,7 @@ impl Watch {
             total: Total::default(),
             last: vec![f64::NEG_INFINITY; gaps],
             firsts: vec![vec![f64::INFINITY; gaps]; transients.len()],
-            known: vec![0; gaps],
+            firsts_known: vec![0; gaps],
             transients,
             edges: Vec::new(),
             passed: Vec::new(),
@@ -180,7 +180,7 @@ impl Watch {
         self.passed.clear();
         self.total = Total::default();
         self.last.fill(f64::NEG_INFINITY);
-        self.known.fill(0);
+        self.firsts_known.fill(0);
         self.firsts.iter_mut().for_each(|firsts| firsts.fill(f64::INFINITY));
         Ok(self.edges.last().copied())
     }
@@ -194,7 +194,7 @@ impl Watch {
         let gaps = self.last.len();
         // On a ring gap n lies between masses n and 1: modulo n it is the neighbour of gap 1.
         let gap = if impact.gap < gaps { impact.gap } else { impact.gap - gaps };
-        let known = &mut self.known[gap];
+        let known = &mut self.firsts_known[gap];
         while self.transients.get(*known).is_some_and(|&transient| impact.time > transient) {
             self.firsts[*known][gap] = impact.time;
             *known += 1;

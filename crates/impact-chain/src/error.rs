@@ -96,6 +96,7 @@ impl Error {
     }
 }
 
+/// Refuses a value of a field that is not from `low` to `high`.
 pub(crate) fn check_range<T: PartialOrd + Debug>(
     field: &str,
     x: T,

@@ -2,13 +2,35 @@
 //! The realisations are resampled, not the rows: realisation i has the same standard normals at
 //! every σ, so a resample takes its counts at all σ together.
 
-use crate::rise::Rise;
 use impact_numerics::bootstrap;
 use impact_numerics::estimates::LEVEL;
 use impact_numerics::statistics::{Estimate, count_quantile, last_rise, mode};
+#[cfg(feature = "serde")]
+use serde::{Deserialize, Serialize};
 
 /// Share of N at which the rise has its onset.
 pub const ONSET: f64 = 0.05;
+
+/// Places of the rise on the σ axis: each is the last rise of a curve through a level, or `None` if
+/// the curve does not rise through it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+pub struct Rise<T = Estimate> {
+    /// Half height: the mean over realisations with an impact reaches N/2.
+    pub half_height: Option<T>,
+    /// The mean over all (those without impact included) reaches N/2.
+    pub half_height_all: Option<T>,
+    /// Onset: the mean over all reaches N/20.
+    pub onset: Option<T>,
+    /// Half of the realisations have an impact in the window.
+    pub kept_half: Option<T>,
+    /// Width of the rise: the mean over all from a tenth to nine tenths of N.
+    pub width: Option<T>,
+    /// Width of the mean over realisations with an impact, from N/4 to 3N/4.
+    pub kept_width: Option<T>,
+    /// Width of the mean over all, from N/4 to 3N/4.
+    pub quarters: Option<T>,
+}
 
 const RESAMPLES: u64 = 1000;
 

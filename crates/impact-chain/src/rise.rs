@@ -1,7 +1,7 @@
 //! Summarises counts of random chains at each σ and where they rise, with bootstrap errors.
 
 use crate::counts::{Counts, Protocol};
-pub use crate::resampling::ONSET;
+pub use crate::resampling::{ONSET, Rise};
 use crate::resampling::{Places, Resampled, Sample};
 use impact_numerics::estimates::with_error;
 use impact_numerics::statistics::{Estimate, mean, mode, standard_error};
@@ -69,27 +69,6 @@ pub struct RisePoint {
     pub masses: Option<Mean>,
     /// Numbers of realisations by their count k = 0..=N.
     pub counts: Vec<u32>,
-}
-
-/// Places of the rise on the σ axis: each is the last rise of a curve through a level, or `None` if
-/// the curve does not rise through it.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
-pub struct Rise<T = Estimate> {
-    /// Half height: the mean over realisations with an impact reaches N/2.
-    pub half_height: Option<T>,
-    /// The mean over all (those without impact included) reaches N/2.
-    pub half_height_all: Option<T>,
-    /// Onset: the mean over all reaches N/20.
-    pub onset: Option<T>,
-    /// Half of the realisations have an impact in the window.
-    pub kept_half: Option<T>,
-    /// Width of the rise: the mean over all from a tenth to nine tenths of N.
-    pub width: Option<T>,
-    /// Width of the mean over realisations with an impact, from N/4 to 3N/4.
-    pub kept_width: Option<T>,
-    /// Width of the mean over all, from N/4 to 3N/4.
-    pub quarters: Option<T>,
 }
 
 /// What a [`Curve`] is computed from.

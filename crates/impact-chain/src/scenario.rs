@@ -15,6 +15,7 @@ pub enum Initial {
     Free(Vec<[f64; 2]>),
 }
 
+/// The largest number of components of the forcing.
 pub const COMPONENTS: usize = 8;
 
 /// Draws one pair of normals with standard deviation `sigma` for each mass.

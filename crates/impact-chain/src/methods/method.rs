@@ -18,9 +18,9 @@ pub struct Cost {
     pub evaluations: u64,
     /// Impacts at exactly the same instant as one of a neighbouring gap, which no rival detects.
     pub simultaneous: u64,
-    /// Dips of gaps that rounding could not decide, and the first of them; no rival detects them.
+    /// Dips of gaps that rounding could not decide, which no rival detects.
     pub undecided: u64,
-    /// The first of these dips.
+    /// The first of these dips, or `None` if there is no such dip.
     pub first_graze: Option<Graze>,
 }
 

@@ -67,7 +67,8 @@ impl<'a> Tally<'a> {
         }
     }
 
-    /// Counts an impact if it has a speed. A gap at rest at zero has none, but is an event.
+    /// Counts an impact if it has a speed; without one it is an event only, of a gap that rests at
+    /// zero.
     pub fn event(&mut self, k: usize, time: f64, speed: f64) -> Result<(), Stop> {
         if speed > 0.0 { self.impact(k, time, speed) } else { self.spend(k, time) }
     }
