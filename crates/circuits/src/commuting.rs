@@ -50,6 +50,14 @@ mod tests {
         assert_eq!([1, 2, 3, 6].map(simple_classes), [[1, 1], [3, 3], [8, 7], [415, 63]]);
     }
 
+    /// Of the impacts 0, 1 and 3 in a circle only 1 and 3, and 3 and 0, have no mass in common.
+    #[test]
+    fn impacts_without_a_common_mass_change_places() {
+        let words: Vec<_> = exchanged(&[0, 1, 3]).map(|other| other.word().to_vec()).collect();
+        assert_eq!(words.len(), 2);
+        assert_eq!(exchanged(&[0, 1]).count(), 0);
+    }
+
     #[test]
     fn without_orders_the_number_is_binomial() {
         // Three gaps, p = 1: seven sets with 12 gaps in all.

@@ -281,4 +281,13 @@ mod tests {
             assert!(off.abs() < 1e-12, "{off}");
         }
     }
+
+    /// The mean of exp(−2x sin² θ) is e^−x I₀(x), for a large x (2πx)^−½ (1 + 1/8x + …): a spike.
+    #[test]
+    fn the_mean_of_a_spike_is_a_bessel_function() {
+        let x = 1e6_f64;
+        let mean = half_period_mean(|theta| (-2.0 * x * theta.sin().powi(2)).exp());
+        let exact = (1.0 + 0.125 / x + 9.0 / (128.0 * x * x)) / (std::f64::consts::TAU * x).sqrt();
+        assert!((mean / exact - 1.0).abs() < 1e-13, "{mean} {exact}");
+    }
 }

@@ -95,6 +95,9 @@ impl<'a> Lanes<'a> {
     #[inline(always)]
     fn look<S: Simd>(&mut self, simd: S, start: Phases, step: &Step) {
         for slot in 0..self.slots.len() {
+            if self.slots[slot].active.is_empty() {
+                continue;
+            }
             self.scan(simd, slot, step.end);
             if self.sift(simd, slot, start, step) {
                 self.pending.push(slot);

@@ -209,7 +209,7 @@ mod tests {
     #[test]
     fn a_root_is_the_first_beyond_the_doubt_of_the_screen() {
         let search = Search::new(Frequencies::new(1.5, [1.0]));
-        let frame = frame(1.0, [[0.0; 2], [1.0, 0.0]], &search.frequencies);
+        let frame = frame(1.0, [[0.0; 2], [2.0, 0.0]], &search.frequencies);
         let bend = derivative(&frame, &search.frequencies, 2, 0.0).abs();
         let square = 4.0 * bend * search.pieces[0].largest_difference(&frame);
         assert!(search.is_first(&frame, (1.001 * square).sqrt()));
