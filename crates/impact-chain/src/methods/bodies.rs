@@ -15,8 +15,8 @@ pub struct Bodies {
     pub topology: Topology,
     pub spacing: f64,
     pub restitution: f64,
-    /// No impact leaves a gap opening more slowly.
-    pub stop: f64,
+    /// The speed with which an impact opens its gap at least.
+    pub least_rebound: f64,
     /// ω².
     pub stiffness: f64,
     forcing: Vec<Component>,
@@ -39,7 +39,7 @@ impl Bodies {
             topology: Topology::new(masses, scenario.boundary),
             spacing: scenario.spacing,
             restitution: scenario.restitution,
-            stop: 0.0,
+            least_rebound: 0.0,
             stiffness: scenario.natural_frequency * scenario.natural_frequency,
             phases: phases(&forcing, Instant::at(start.time)),
             forcing,
@@ -70,7 +70,7 @@ impl Bodies {
 
     pub fn hit(&mut self, k: usize, speed: f64) {
         let [left, right] = self.topology.sides(k);
-        let change = speed + (self.restitution * speed).max(self.stop);
+        let change = speed + (self.restitution * speed).max(self.least_rebound);
         let jumps = jumps(change, 0.0, self.topology.inverse_masses(k));
         self.v[left] += jumps[0];
         self.v[right] += jumps[1];

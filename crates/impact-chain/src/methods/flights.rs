@@ -21,8 +21,8 @@ pub struct Flights {
     pub topology: Topology,
     pub spacing: f64,
     pub restitution: f64,
-    /// No impact leaves a gap opening more slowly.
-    pub stop: f64,
+    /// The speed with which an impact opens its gap at least.
+    pub least_rebound: f64,
     pub omega: f64,
     /// ω, in turns.
     turns: Rate,
@@ -44,7 +44,7 @@ impl Flights {
             topology: Topology::new(scenario.forcing.len(), scenario.boundary),
             spacing: scenario.spacing,
             restitution: scenario.restitution,
-            stop: 0.0,
+            least_rebound: 0.0,
             omega: w,
             turns: Rate::new(w),
             free: vec![[0.0; 2]; u.len()],
@@ -106,7 +106,7 @@ impl Flights {
 
     /// Applies the impact law at gap k to the free parts. Returns the rate at which the gap opens.
     pub fn hit(&mut self, k: usize, speed: f64, phases: &FlightPhases) -> f64 {
-        let rebound = (self.restitution * speed).max(self.stop);
+        let rebound = (self.restitution * speed).max(self.least_rebound);
         let sides = self.topology.sides(k);
         let inverse = self.topology.inverse_masses(k);
         let (sin, cos) = phases.0;

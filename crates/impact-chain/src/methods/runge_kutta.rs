@@ -28,8 +28,8 @@ use crate::search::clock::Instant;
 pub struct RungeKutta {
     /// Error allowed in a step, relative.
     pub tolerance: f64,
-    /// No impact leaves a gap opening more slowly.
-    pub stop: f64,
+    /// The speed with which an impact opens its gap at least.
+    pub least_rebound: f64,
 }
 
 /// The first step, in units of 1/max(ω, Ω).
@@ -41,13 +41,13 @@ impl Rival for RungeKutta {
     fn begin(&self, task: Task) -> Result<Run, Error> {
         let Task { scenario, start, until } = task;
         let (mut row, now) = (Bodies::new(task)?, Instant::at(start.time));
-        row.stop = self.stop;
+        row.least_rebound = self.least_rebound;
         check_tolerance(self.tolerance)?;
         let stages = Stages::new(&row, now);
         let mut steps = Steps { stages, row, now, tolerance: self.tolerance };
         let first = FIRST / scenario.fastest();
         Ok(Box::new(move |tally| {
-            tally.stopping_at(steps.row.stop);
+            tally.limit_chatter(steps.row.least_rebound);
             steps.integrate(Instant::at(until), first, tally)
         }))
     }

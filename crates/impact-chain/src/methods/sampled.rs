@@ -30,20 +30,20 @@ use impact_numerics::roots::crossing;
 pub struct Sampled {
     /// Time h between two samples.
     pub step: f64,
-    /// No impact leaves a gap opening more slowly.
-    pub stop: f64,
+    /// The speed with which an impact opens its gap at least.
+    pub least_rebound: f64,
 }
 
 impl Rival for Sampled {
     const NAME: &'static str = "sampled";
 
     fn begin(&self, task: Task) -> Result<Run, Error> {
-        let gaps = Gaps::new(task, self.stop)?;
-        let (stop, number) = (self.stop, gaps.topology.gaps() as u64);
+        let gaps = Gaps::new(task, self.least_rebound)?;
+        let (least_rebound, number) = (self.least_rebound, gaps.topology.gaps() as u64);
         let rates = gaps.parts.iter().map(|part| part.rate).collect();
         let run = run_steps(task, self.step, rates, gaps)?;
         Ok(Box::new(move |tally| {
-            tally.stopping_at(stop);
+            tally.limit_chatter(least_rebound);
             tally.cost.evaluations += number;
             run(tally)
         }))
@@ -80,7 +80,7 @@ struct Gaps {
     topology: Topology,
     spacing: f64,
     restitution: f64,
-    stop: f64,
+    least_rebound: f64,
     /// The free part first. Gaps that fill the last register never close.
     parts: Vec<Part>,
     /// The forced part of M₂ of each gap, and M₂ h²/8.
@@ -102,7 +102,7 @@ struct Gaps {
 }
 
 impl Gaps {
-    fn new(task: Task, stop: f64) -> Result<Gaps, Error> {
+    fn new(task: Task, least_rebound: f64) -> Result<Gaps, Error> {
         let Flights { topology, spacing, restitution, omega, free, forced, .. } =
             Flights::new(task)?;
         let gaps = topology.gaps();
@@ -134,7 +134,7 @@ impl Gaps {
             topology,
             spacing,
             restitution,
-            stop,
+            least_rebound,
             forced: (0..length).map(bend).collect(),
             sag: vec![-1.0; length],
             h: 0.0,
@@ -268,7 +268,7 @@ impl Gaps {
 
     /// Lets gap k be hit, `s` after the beginning of the step.
     fn hit(&mut self, (s, k, speed): (f64, usize, f64), step: &Step, tally: &mut Tally) {
-        let rebound = (self.restitution * speed).max(self.stop);
+        let rebound = (self.restitution * speed).max(self.least_rebound);
         let instant = step.from().after(s);
         for (now, part) in self.now.iter_mut().zip(&self.parts) {
             *now = part.rate.sin_cos(instant);

@@ -41,9 +41,9 @@ impl<'a> Tally<'a> {
         }
     }
 
-    /// Lowers the bound of a method without a least rebound speed, whose chatters have no end.
-    pub fn stopping_at(&mut self, speed: f64) {
-        if speed == 0.0 {
+    /// Lowers the bound of a method whose least rebound speed is zero: its chatters have no end.
+    pub fn limit_chatter(&mut self, least_rebound: f64) {
+        if least_rebound == 0.0 {
             self.budget.bound /= 10;
         }
     }

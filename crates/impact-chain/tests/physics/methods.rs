@@ -40,9 +40,9 @@ fn impacts(method: &dyn Method, scenario: &Scenario, until: f64) -> Vec<Impact> 
 fn methods() -> Vec<Box<dyn Method>> {
     vec![
         Box::new(Certified),
-        Box::new(Sampled { step: 0.01, stop: 0.0 }),
-        Box::new(Advancement { tolerance: 1e-13, stop: 0.0 }),
-        Box::new(RungeKutta { tolerance: 1e-9, stop: 0.0 }),
+        Box::new(Sampled { step: 0.01, least_rebound: 0.0 }),
+        Box::new(Advancement { tolerance: 1e-13, least_rebound: 0.0 }),
+        Box::new(RungeKutta { tolerance: 1e-9, least_rebound: 0.0 }),
         Box::new(MoreauJean { step: 1e-3 }),
         Box::new(Verlet { step: 1e-3 }),
         Box::new(VerletAbreast { step: 1e-2 }),
@@ -106,8 +106,10 @@ fn methods_have_their_order() {
         );
     }
     // The error is the tolerance's, over five decades, and the steps are its fifth root.
-    let tolerances =
-        [&RungeKutta { tolerance: 1e-6, stop: 0.0 }, &RungeKutta { tolerance: 1e-11, stop: 0.0 }];
+    let tolerances = [
+        &RungeKutta { tolerance: 1e-6, least_rebound: 0.0 },
+        &RungeKutta { tolerance: 1e-11, least_rebound: 0.0 },
+    ];
     let grown = grown(tolerances.map(|method| method as &dyn Method));
     let [error, steps] = grown.map(|x| x.log10() / 5.0);
     assert!((error - 1.0).abs() < 0.15 && (steps - 0.2).abs() < 0.03, "{error} {steps}");
@@ -123,7 +125,7 @@ fn runs_stop_and_go_on() {
         engine.advance(30.0).unwrap();
         let start = engine.state(30.0).unwrap();
         let exact = run(&mut engine, 40.0);
-        let more: Box<dyn Method> = Box::new(Sampled { step: 0.1, stop: 0.0 });
+        let more: Box<dyn Method> = Box::new(Sampled { step: 0.1, least_rebound: 0.0 });
         for method in methods().into_iter().chain([more]) {
             let name = method.name();
             let mut impacts: Vec<Impact> = Vec::new();
@@ -194,13 +196,13 @@ fn no_method_loops_or_panics_on_bad_data() {
     }
     for step in [0.0, -1.0, f64::NAN, f64::INFINITY, 2.0, 1e-300] {
         let wrong: [&dyn Method; 7] = [
-            &Sampled { step, stop: 0.0 },
-            &Advancement { tolerance: step, stop: 0.0 },
+            &Sampled { step, least_rebound: 0.0 },
+            &Advancement { tolerance: step, least_rebound: 0.0 },
             &MoreauJean { step },
             &Verlet { step },
             &VerletAbreast { step },
             &Penalty { step },
-            &RungeKutta { tolerance: step, stop: 0.0 },
+            &RungeKutta { tolerance: step, least_rebound: 0.0 },
         ];
         for method in wrong {
             let error = trace(method, &good, 1.0).1.unwrap_err().to_string();
@@ -276,7 +278,7 @@ fn an_advance_goes_to_the_zero_of_the_parabola() {
             if reach < 1.0 { f64::INFINITY } else { (g + (g * g + 2.0 * f * bend).sqrt()) / bend }
         };
         let wait = (0..4).map(wait).fold(f64::INFINITY, f64::min);
-        let method = Advancement { tolerance: 1e-13, stop: 0.0 };
+        let method = Advancement { tolerance: 1e-13, least_rebound: 0.0 };
         let ends = [1.0 - 1e-6, 1.0 + 1e-6].map(|factor| (factor * wait).min(1e3));
         let evaluations = ends.map(|end| trace(&method, &one, end).1.map(|cost| cost.evaluations));
         safe += usize::from(evaluations[0].is_ok() && wait.is_infinite());
@@ -295,9 +297,11 @@ fn impacts_at_samples_and_within_a_step_are_found_once() {
     for amplitude in (1..40).map(|i| 1000.0 + 37.0 * f64::from(i)) {
         let orbit = Scenario { spacing: 1000.0, ..free(&[[0.0, amplitude]], 1.0) };
         let half = (1000.0 / amplitude).asin();
-        let hits = impacts(&Sampled { step: half / 4.0, stop: 0.0 }, &orbit, 40.5 * half);
+        let hits = impacts(&Sampled { step: half / 4.0, least_rebound: 0.0 }, &orbit, 40.5 * half);
         // Between samples ten evaluations an impact are enough, looks at ends of steps included.
-        let cost = trace(&Sampled { step: half / 3.7, stop: 0.0 }, &orbit, 40.5 * half).1.unwrap();
+        let cost = trace(&Sampled { step: half / 3.7, least_rebound: 0.0 }, &orbit, 40.5 * half)
+            .1
+            .unwrap();
         assert!(cost.evaluations - 2 * cost.steps <= 200, "{amplitude}: {cost:?}");
         let off = |(i, hit): (u32, &Impact)| (hit.time - f64::from(2 * i + 1) * half).abs();
         let worst = (0..).zip(&hits).map(off).fold(0.0, f64::max);
@@ -305,7 +309,7 @@ fn impacts_at_samples_and_within_a_step_are_found_once() {
     }
     let ball = given(vec![[-0.95 + 20.0, 0.0]], vec![[-20.0 + 1e-3, 0.0]]);
     let ball = Scenario { forcing_frequency: 1e-2, restitution: 0.5, ..ball };
-    let methods: [&dyn Method; 2] = [&Sampled { step: 0.5, stop: 0.0 }, &Certified];
+    let methods: [&dyn Method; 2] = [&Sampled { step: 0.5, least_rebound: 0.0 }, &Certified];
     let [sampled, exact] = methods.map(|method| trace(method, &ball, 0.5).0);
     let off = |i: usize| (sampled[i].time - exact[i].time).abs() * exact[i].closing_speed;
     assert!((0..10).all(|i| sampled[i].gap == 0 && off(i) < 1e-14), "{sampled:?}, {exact:?}");
