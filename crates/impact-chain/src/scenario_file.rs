@@ -177,10 +177,12 @@ fn parse(text: &str) -> Result<ScenarioFile, Error> {
             "" => "unnamed field",
             path => path,
         };
-        if is_not_finite(text, error.inner()) {
-            return Error::input(field, "it is not finite", "give a finite number");
+        let error = error.inner();
+        if is_not_finite(text, error) {
+            let problem = format!("not finite at line {} column {}", error.line(), error.column());
+            return Error::input(field, problem, "give a finite number");
         }
-        let problem = error.inner().to_string();
+        let problem = error.to_string();
         let unknown = problem.strip_prefix("unknown field `");
         let name = unknown.and_then(|rest| rest.split('`').next()).unwrap_or_default();
         match NOT_IN_MODEL.iter().find(|(part, _)| name.contains(part)) {
@@ -323,8 +325,11 @@ mod tests {
     #[test]
     fn numbers_that_are_not_finite_and_overlaps_are_called_by_their_field() {
         for (text, expected) in [
-            (r#"{"forcing": [[NaN, 0]]}"#, "forcing[0][0]: it is not finite; give a finite number"),
-            (r#"{"spacing":-Infinity}"#, "spacing: it is not finite; give a finite number"),
+            (
+                r#"{"forcing": [[NaN, 0]]}"#,
+                "forcing[0][0]: not finite at line 1 column 15; give a finite number",
+            ),
+            (r#"{"spacing":-Infinity}"#, "spacing: not finite at line 1 column 1"),
             (
                 r#"{"forcing":[[0,0]],"initial":{"at":{"positions":[-1],"velocities":[0]}}}"#,
                 "initial.at.positions: gap 0 starts overlapped by 1e0",

@@ -50,7 +50,7 @@ impl Scenario {
                 check_range("places", place, -1e9, 1e9)?;
             }
         }
-        let (width, largest) = (rounding::width(self), rounding::LARGEST * self.spacing);
+        let (width, largest) = (rounding::gap_error(self), rounding::LARGEST * self.spacing);
         if width <= largest {
             return Ok(());
         }

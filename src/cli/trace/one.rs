@@ -136,7 +136,7 @@ impl Job {
             self.by_method(&scenario, &start, rows).map(|cost| (cost, None))
         };
         let mut notes = ran.as_ref().map_or(Vec::new(), |(cost, _)| doubts(cost));
-        let width = rounding::width(&scenario);
+        let width = rounding::gap_error(&scenario);
         let closed = matches!(self.args.method, MethodName::Certified | MethodName::Sampled);
         let began = matches!(ran, Ok(_) | Err(Error::Work { .. }));
         if closed && began && width > rounding::REPORTED * scenario.spacing {
