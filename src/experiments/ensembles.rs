@@ -75,7 +75,7 @@ pub fn rows(ensembles: &Vec<Ensemble>) -> Vec<UnitRow> {
     let row = |(one, sigma): (&Ensemble, f64)| UnitRow {
         realisations: one.realisations_at(sigma),
         weight: one.work(sigma),
-        together: Abreast::number(&one.chain),
+        together: Abreast::batch_size(&one.chain),
     };
     cases(ensembles).map(row).collect()
 }
@@ -95,7 +95,7 @@ pub fn part(
         progress.check()?;
         counts.map_err(|source| Error::failed("an ensemble", source))
     };
-    let together = Abreast::number(&one.chain);
+    let together = Abreast::batch_size(&one.chain);
     Ok(unit.in_groups(together, stage, count)?.into_iter().flatten().collect())
 }
 

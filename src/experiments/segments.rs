@@ -221,12 +221,12 @@ fn record(scenario: &Scenario, from: f64, until: f64) -> Result<Segment, impact_
         let time = if point == POINTS { until } else { from + point as f64 * step };
         // The engine stops after each impact, because positions are exact only up to the next.
         while let Some(Impact { time, gap, .. }) = engine.next_impact(time)? {
-            let positions = engine.positions(time)?;
+            let positions = engine.state(time)?.positions;
             let position = if gap == 0 { 0.0 } else { positions[gap.min(masses) - 1] };
             impacts.push(SegmentImpact { time, gap, position });
             push(time, positions);
         }
-        push(time, engine.positions(time)?);
+        push(time, engine.state(time)?.positions);
     }
     Ok(Segment { spacing, masses, from, until, times, positions: tracks, impacts })
 }

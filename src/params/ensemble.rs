@@ -1,6 +1,6 @@
 //! Defines an ensemble: random chains at several σ, and the windows in which they are counted.
 
-use impact_chain::abreast::{Abreast, Realisation};
+use impact_chain::abreast::{Abreast, Counting, Realisation};
 use impact_chain::counts::{Counts, Watch};
 use impact_chain::{Chain, Engine, Error, Initial, NormalPairs, Protocol, Scenario};
 use serde::{Deserialize, Serialize};
@@ -103,28 +103,14 @@ impl Ensemble {
     /// Prepares the simulation of its realisations at a σ.
     pub fn prepare(&self, sigma: f64) -> Realisations<'_> {
         let heating = self.heating.map(|heating| Abreast::new(&self.chain, &[], heating.time));
-        let counting = Abreast::new(&self.chain, &self.protocols, self.until(sigma));
+        let counting = Counting::new(&self.chain, &self.protocols, self.until(sigma));
         Realisations { ensemble: self, sigma, heating, counting }
     }
 
-    /// Counts the impacts of a realisation by the engine; incomplete when `stopped` returns true.
-    fn by_engine(
-        &self,
-        sigma: f64,
-        index: u64,
-        stopped: &dyn Fn() -> bool,
-    ) -> Result<Counts, Error> {
-        let mut watch = Watch::new(&self.chain, &self.protocols);
-        let engine = self.start_engine(sigma, index, stopped);
-        let mut counts = watch.run(engine, index, self.until(sigma), stopped)?;
-        self.count_pieces(&mut counts, |window| watch.hit(window));
-        Ok(counts)
-    }
-
-    /// Replaces the counts of the chain in each window by those of its pieces.
-    fn count_pieces(&self, counts: &mut Counts, hit: impl Fn(&Protocol) -> Option<Vec<bool>>) {
+    /// Counts the gaps of each piece in each window, instead of those of the chain.
+    fn count_pieces(&self, counts: &mut Counts, watch: &Watch) {
         for (distinct, window) in counts.distinct.iter_mut().zip(&self.protocols) {
-            *distinct = match hit(window).filter(|_| distinct[0].is_some()) {
+            *distinct = match watch.gaps_hit(window).filter(|_| distinct[0].is_some()) {
                 Some(hit) => self.piece_counts(&hit),
                 None => vec![None; self.pieces],
             };
@@ -165,7 +151,7 @@ pub struct Realisations<'a> {
     sigma: f64,
     /// The run before the transient, if there is one.
     heating: Option<Option<Abreast>>,
-    counting: Option<Abreast>,
+    counting: Counting,
 }
 
 impl Realisations<'_> {
@@ -175,41 +161,37 @@ impl Realisations<'_> {
         indices: Range<u64>,
         stopped: &dyn Fn() -> bool,
     ) -> Result<Vec<Counts>, Error> {
-        let one = self.ensemble;
-        let indices: Vec<u64> = indices.map(|index| one.first + index).collect();
-        let mut counts = vec![None; indices.len()];
-        if let Some(counting) = &self.counting {
-            let (places, starts): (Vec<usize>, Vec<Scenario>) =
-                self.starts(&indices, stopped).into_iter().unzip();
-            for (place, run) in places.into_iter().zip(counting.run(&starts, stopped)) {
-                counts[place] = run.map(|mut run| {
-                    let mut counts = run.counts();
-                    one.count_pieces(&mut counts, |window| run.hit(window));
-                    counts
-                });
-            }
-        }
-        let by_engine = |index| one.by_engine(self.sigma, index, stopped);
-        let runs = indices.into_iter().zip(counts);
-        runs.map(|(index, counts)| counts.map_or_else(|| by_engine(index), Ok)).collect()
+        let ensemble = self.ensemble;
+        let starts = self.starts(indices.map(|index| ensemble.first + index), stopped);
+        let engine = |index| ensemble.start_engine(self.sigma, index, stopped);
+        let runs = self.counting.run(starts, engine, stopped)?.into_iter();
+        let cut = |(mut counts, watch): (Counts, Watch)| {
+            ensemble.count_pieces(&mut counts, &watch);
+            counts
+        };
+        Ok(runs.map(cut).collect())
     }
 
-    /// Lists the scenarios at the time from which transients are measured, each with the place of
-    /// its realisation; those whose heating only the engine can simulate are left out.
-    fn starts(&self, indices: &[u64], stopped: &dyn Fn() -> bool) -> Vec<(usize, Scenario)> {
-        let one = self.ensemble;
-        let draw = |sigma, index: &u64| Scenario::draw(&one.chain, sigma, &mut one.normals(*index));
-        let Some((hot, heating)) = one.heating.zip(self.heating.as_ref()) else {
-            return indices.iter().map(|index| draw(self.sigma, index)).enumerate().collect();
+    /// Lists the scenarios from which transients are measured, or `None` for those whose way there
+    /// has to be simulated by the engine, each with its index.
+    fn starts(
+        &self,
+        indices: impl Iterator<Item = u64> + Clone,
+        stopped: &dyn Fn() -> bool,
+    ) -> Vec<(u64, Option<Scenario>)> {
+        let Ensemble { chain, heating, .. } = self.ensemble;
+        let draw = |sigma, index| Scenario::draw(chain, sigma, &mut self.ensemble.normals(index));
+        let Some((hot, heating)) = heating.zip(self.heating.as_ref()) else {
+            return indices.map(|index| (index, Some(draw(self.sigma, index)))).collect();
         };
-        let Some(heating) = heating else { return Vec::new() };
-        let scenarios: Vec<_> = indices.iter().map(|index| draw(hot.sigma, index)).collect();
-        let runs = heating.run(&scenarios, stopped).into_iter().zip(&scenarios).enumerate();
-        let start = |(place, (run, scenario)): (usize, (Option<Realisation>, &Scenario))| {
-            let free = run?.free_parts(&one.chain);
-            Some((place, lowered(scenario, &free, hot.time, self.sigma / hot.sigma)))
+        let Some(heating) = heating else { return indices.map(|index| (index, None)).collect() };
+        let scenarios: Vec<_> = indices.clone().map(|index| draw(hot.sigma, index)).collect();
+        let start = |(run, scenario): (Option<Realisation>, &Scenario)| {
+            let free = run?.free_parts(chain);
+            Some(lowered(scenario, &free, hot.time, self.sigma / hot.sigma))
         };
-        runs.filter_map(start).collect()
+        let runs = heating.run(&scenarios, stopped).into_iter().zip(&scenarios);
+        indices.zip(runs.map(start)).collect()
     }
 }
 

@@ -37,9 +37,13 @@ impl MethodName {
     pub fn with_setting(self, value: f64, stop: f64) -> Box<dyn Method> {
         match self {
             MethodName::Certified => Box::new(Certified),
-            MethodName::Sampled => Box::new(Sampled { step: value, stop }),
-            MethodName::Advancement => Box::new(Advancement { tolerance: value, stop }),
-            MethodName::RungeKutta => Box::new(RungeKutta { tolerance: value, stop }),
+            MethodName::Sampled => Box::new(Sampled { step: value, least_rebound: stop }),
+            MethodName::Advancement => {
+                Box::new(Advancement { tolerance: value, least_rebound: stop })
+            }
+            MethodName::RungeKutta => {
+                Box::new(RungeKutta { tolerance: value, least_rebound: stop })
+            }
             MethodName::MoreauJean => Box::new(MoreauJean { step: value }),
             MethodName::Verlet => Box::new(Verlet { step: value }),
             MethodName::Penalty => Box::new(Penalty { step: value }),

@@ -97,7 +97,7 @@ fn positions_and_velocities_are_continuous_when_the_force_is_lowered() {
     let (mut engine, time) = (Engine::new(&scenario).unwrap(), 7.3);
     assert_eq!(engine.impacts(time).unwrap(), []);
     let before = engine.state(time).unwrap();
-    let after = State::of(&lowered(&scenario, &engine.free_parts(), time, 0.4));
+    let after = State::from_scenario(&lowered(&scenario, &engine.free_parts(), time, 0.4));
     let near = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-14);
     assert!(near(&before.positions, &after.positions), "{before:?} {after:?}");
     assert!(near(&before.velocities, &after.velocities), "{before:?} {after:?}");

@@ -94,6 +94,7 @@ trace s.json --at 2,1 => --at; give rising
 trace s.json --at 1 --method verlet => --at; certified
 trace s.json --at period => --at: period; give --until
 trace s.json --until 5 --save file/below => --save: file/below; another file
+trace s.json --until 5 --save - => --save: standard output has the rows; give a file
 trace s.json --until 5 --from s.json => --from: s.json: ; that --save wrote
 trace s.json --until 5 --max-impacts=-1|1.5|99999999999999999999 => --max-impacts
 trace s.json --until 5 --step 0.1 => --step; certified takes neither; leave it out

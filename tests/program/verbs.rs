@@ -193,9 +193,10 @@ fn states_and_many_scenarios() {
     assert!(states.starts_with("time,mass,position,velocity\n0.0,1,1.0,0.0\n"), "{states}");
     assert_eq!(states.lines().count(), 1 + 3 * 3);
     let one_line = SCENARIO.replace('\n', " ");
-    std::fs::write(folder.path().join("s.json"), format!("{one_line}\n{one_line}\n[]\n")).unwrap();
+    std::fs::write(folder.path().join("s.json"), format!("{one_line}\n{one_line}\n\n[]\n"))
+        .unwrap();
     let (code, text, note) = run(folder.path(), "trace s.json --lines --until 9");
-    assert!(code == 2 && note.contains("s.json, line 3: scenario: "), "{note}");
+    assert!(code == 2 && note.contains("s.json, line 4: scenario: "), "{note}");
     let expected = |cells: [&str; 2], last: &str| {
         let rows = |cell: &str| -> String {
             plain.lines().skip(1).map(|row| format!("{cell},{row}\n")).collect()
@@ -206,9 +207,10 @@ fn states_and_many_scenarios() {
     let header = "scenario,time,gap,closing_speed\n";
     assert_eq!(text, header.to_string() + &expected(["1", "2"], ""));
     let (code, text, note) = run(folder.path(), "trace s.json --lines --until 9 --keep-going");
-    assert!(code == 0 && note.contains("line 3: scenario: "), "{note}");
+    let notes = ["line 4: scenario: ", "lines refused or stopped: 1"];
+    assert!(code == 1 && notes.iter().all(|words| note.contains(words)), "{note}");
     let header = "scenario,status,time,gap,closing_speed\n";
-    assert_eq!(text, header.to_string() + &expected(["1,ok", "2,ok"], "3,refused,,,\n"));
+    assert_eq!(text, header.to_string() + &expected(["1,ok", "2,ok"], "4,refused,,,\n"));
 }
 
 /// The events of two halves are those of the whole run, and samples are taken once in a period.
@@ -237,6 +239,16 @@ fn a_run_goes_on_from_what_was_saved() {
     let (code, _, note) = run(folder.path(), "trace s.json --from half.json --until 11");
     assert!(code == 2 && note.contains("--until: 11.0 is before the state, at 12.0"), "{note}");
     assert_eq!(rows("--at 0..9:4.5 --until 5").len(), 2 * 3);
+    assert_eq!(rows("--at 1,2,2,3").len(), 3 * 3);
+    let (code, _, note) = run(folder.path(), "trace s.json --from half.json --at 11,13");
+    assert!(code == 2 && note.contains("--at: 11.0 is before the state, at 12.0"), "{note}");
+    std::fs::write(
+        folder.path().join("short.json"),
+        r#"{"time":1,"positions":[],"velocities":[]}"#,
+    )
+    .unwrap();
+    let (code, _, note) = run(folder.path(), "trace s.json --from short.json --until 11");
+    assert!(code == 2 && note.contains("--from: short.json: positions: it has 0"), "{note}");
 }
 
 #[test]

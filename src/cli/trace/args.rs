@@ -67,12 +67,12 @@ pub struct Args {
     /// scenario may be another, as along a branch.
     #[arg(long, value_name = "FILE", conflicts_with = "lines")]
     pub(super) from: Option<PathBuf>,
-    /// Read a scenario from each line; the first column is its number. They are run on all cores
-    /// and answered in order, and the first that is refused ends the run.
+    /// Read a scenario from each line that is not blank; the first column is its number. They are
+    /// run on all cores and answered in order, and the first that is refused ends the run.
     #[arg(long)]
     pub(super) lines: bool,
     /// Go on after a line that is refused or stopped: a column says "ok", "refused" or "stopped",
-    /// and each line has a row, without numbers if there are none.
+    /// and each line has a row, without numbers if there are none. The exit code is 1 then.
     #[arg(long, requires = "lines")]
     pub(super) keep_going: bool,
     /// Stop after this many impacts.

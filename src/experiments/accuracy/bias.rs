@@ -3,7 +3,7 @@
 use crate::experiments::prelude::*;
 use crate::params::{BiasParams, Means, MethodName, Setting};
 use impact_chain::Abreast;
-use impact_chain::methods::VerletAbreast;
+use impact_chain::methods::{Task, VerletAbreast, Window};
 use rayon::prelude::*;
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -22,7 +22,7 @@ pub fn run(parameters: &BiasParams, progress: &Progress) -> Result<Biases, Error
     let stage = progress.stage("error of the mean", parameters.runs());
     let together = |means: &Means, nudged: bool| {
         let ensemble = means.ensemble(nudged);
-        let (number, end) = (Abreast::number(&ensemble.chain), ensemble.realisations as u64);
+        let (number, end) = (Abreast::batch_size(&ensemble.chain), ensemble.realisations as u64);
         let groups = (0..end).step_by(number);
         let counts = run_each(&stage, progress, groups, |first| {
             let realisations = ensemble.prepare(ensemble.sigmas[0]);
@@ -42,8 +42,10 @@ pub fn run(parameters: &BiasParams, progress: &Progress) -> Result<Biases, Error
             }
             if setting.method == MethodName::VerletAbreast {
                 let drawn = (0..realisations as u64).map(|index| means.chains.scenario(index));
-                let (scenarios, window) =
-                    (drawn.collect::<Vec<_>>(), Some((means.transient, false)));
+                let (scenarios, window) = (
+                    drawn.collect::<Vec<_>>(),
+                    Some(Window { after: means.transient, ends_with_one: false }),
+                );
                 let verlet = VerletAbreast { step: setting.value };
                 let ran = verlet.run_all(&scenarios, means.chains.until, window, &mut |_, _| true);
                 let (_, counts) = ran.map_err(|source| Error::failed("bias", source))?;
@@ -58,7 +60,8 @@ pub fn run(parameters: &BiasParams, progress: &Progress) -> Result<Biases, Error
                     hit[impact.gap] |= impact.time > means.transient;
                     !progress.stopped()
                 };
-                let task = (&scenario, &State::of(&scenario), means.chains.until);
+                let start = State::from_scenario(&scenario);
+                let task = Task { scenario: &scenario, start: &start, until: means.chains.until };
                 let ran = method.run(task, &mut see);
                 progress.check()?;
                 Ok(ran.ok().map(|_| hit.iter().map(|hit| u32::from(*hit)).sum()))

@@ -126,7 +126,8 @@ impl Case {
     pub fn run(&self, method: &Run) -> (Outcome, f64) {
         let Ok(scenario) = self.chain() else { return (Outcome::Refused, f64::INFINITY) };
         let (mut seen, mut slowest) = (Vec::new(), f64::INFINITY);
-        let ran = method((&scenario, &self.start, self.until), &mut |impact| {
+        let task = Task { scenario: &scenario, start: &self.start, until: self.until };
+        let ran = method(task, &mut |impact| {
             slowest = slowest.min(scenario.restitution * impact.closing_speed);
             if self.expected.counts(&impact) {
                 seen.push(impact);

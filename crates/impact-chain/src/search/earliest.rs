@@ -128,13 +128,13 @@ impl Earliest {
                 agreeing.extend([2 * node + 1, 2 * node]);
                 continue;
             };
-            let at = self.keys[index];
-            if at > key || at == Instant::NEVER {
+            let candidate = self.keys[index];
+            if candidate > key || candidate == Instant::NEVER {
                 continue;
             }
             let speed = speed(index);
-            if at < key || speed > fastest {
-                (first, key, fastest) = (index, at, speed);
+            if candidate < key || speed > fastest {
+                (first, key, fastest) = (index, candidate, speed);
             }
         }
         (first, key)

@@ -102,15 +102,15 @@ fn hold(scenario: &Scenario, until: f64, tally: &mut Tally) {
         }
         (ours, theirs) => {
             // Allowed only if one of the two is a graze, or both fall together.
-            let found = ours.map(|a| (a.gap, a.closing_speed, Dd::from(a.time)));
+            let ours = ours.map(|a| (a.gap, a.closing_speed, Dd::from(a.time)));
             let exact = theirs.map(|b| (b.gap, b.closing_speed.hi, b.time));
-            let all = [&found, &exact].map(|hit| hit.as_ref());
-            let graze = all.iter().flatten().any(|(gap, speed, _)| unit(*gap).grazes(*speed));
+            let both = [&ours, &exact].map(|hit| hit.as_ref());
+            let is_graze = both.iter().flatten().any(|(gap, speed, _)| unit(*gap).grazes(*speed));
             let end = Dd::from(until);
-            let [a, b] = all.map(|hit| hit.map_or(end, |(_, _, time)| *time));
-            let both = all.iter().flatten().map(|(gap, speed, _)| unit(*gap).time(*speed));
-            let tie = (a - b).hi.abs() <= both.sum::<f64>() + 0.5 * until * f64::EPSILON;
-            assert!(graze || tie, "a miss or a ghost: {found:?}, not {exact:?}: {scenario:?}");
+            let [a, b] = both.map(|hit| hit.map_or(end, |(_, _, time)| *time));
+            let errors = both.iter().flatten().map(|(gap, speed, _)| unit(*gap).time(*speed));
+            let is_tie = (a - b).hi.abs() <= errors.sum::<f64>() + 0.5 * until * f64::EPSILON;
+            assert!(is_graze || is_tie, "a miss or a ghost: {ours:?}, not {exact:?}: {scenario:?}");
             tally.undecidable += 1;
         }
     }
