@@ -5,7 +5,7 @@
 use divan::Bencher;
 use divan::counter::ItemsCount;
 use impact_chain::{Engine, Scenario};
-use impact_numerics::random::NormalPairs;
+use impact_numerics::random::{NormalPairs, Seed};
 use impact_paper::params::{Chain, Ensemble};
 
 fn main() {
@@ -14,7 +14,7 @@ fn main() {
 
 fn scenario(masses: usize) -> Scenario {
     let chain = Chain { masses, ..Chain::default() };
-    Scenario::draw(&chain, 0.3, &mut NormalPairs::new("bench", 1, 0))
+    Scenario::draw(&chain, 0.3, &mut NormalPairs::new("bench", Seed(1), 0))
 }
 
 /// Runs until `until`; returns the number of impacts.
@@ -42,7 +42,8 @@ fn counted<const TOGETHER: bool>(bencher: Bencher, sigma: f64) {
     let counts = || realisations.count(0..16, &|| false).expect("the chain is allowed");
     let impacts: u64 = counts().iter().map(|counts| counts.total.impacts).sum();
     let bencher = bencher.counter(ItemsCount::new(impacts));
-    let draw = |i| Scenario::draw(&ensemble.chain, sigma, &mut NormalPairs::new("sweep", 2007, i));
+    let draw =
+        |i| Scenario::draw(&ensemble.chain, sigma, &mut NormalPairs::new("sweep", Seed(2007), i));
     let until = ensemble.until(sigma);
     if TOGETHER {
         bencher.bench(counts);

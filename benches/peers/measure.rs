@@ -7,7 +7,7 @@ use clap::Parser;
 use impact_chain::methods::{Certified, Method, Task, VerletAbreast, Window};
 use impact_chain::{Abreast, without_wide_vectors};
 use impact_chain::{Counters, Engine, Error, Protocol, Scenario, State};
-use impact_numerics::random::NormalPairs;
+use impact_numerics::random::{NormalPairs, Seed};
 use impact_paper::params::{
     BiasParams, Chain, Means, MethodName, Profile, RaceParams, Runs, ScaleParams, Setting,
 };
@@ -107,7 +107,7 @@ fn main() -> Result<(), Failure> {
 /// The chain `behind` places after that of `drawn` in the stream.
 fn draw(drawn: &Drawn, behind: u64) -> Result<Scenario, Failure> {
     let chain = Chain { masses: drawn.masses, restitution: RESTITUTION, ..Chain::default() };
-    let mut normals = NormalPairs::new("bench", SEED, drawn.chain + behind);
+    let mut normals = NormalPairs::new("bench", Seed(SEED), drawn.chain + behind);
     let scenario = Scenario::draw(&chain, drawn.sigma, &mut normals);
     scenario.validate()?;
     Ok(scenario)

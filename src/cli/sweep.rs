@@ -28,7 +28,7 @@ use std::ops::Range;
 /// early, rows with more than a tenth of the starts rejected, or with more than one in a hundred
 /// impacts at the instant of another, and grazes that rounding could not decide.
 ///
-/// Realisation i is Scenario::draw of the crate impact-chain with NormalPairs::new("sweep", S, i);
+/// Realisation i is Scenario::draw of impact-chain with NormalPairs::new("sweep", Seed(S), i);
 /// its to_json can be read by trace. The chain, its equation and its units: trace --help.
 #[derive(clap::Args)]
 #[command(verbatim_doc_comment, after_help = help())]

@@ -6,7 +6,7 @@ pub use impact_chain::State;
 pub use impact_chain::rise::Curve;
 pub use impact_chain::{Engine, Impact, Scenario};
 pub use impact_numerics::estimates::{average, difference, share, with_error};
-pub use impact_numerics::random::NormalPairs;
+pub use impact_numerics::random::{NormalPairs, Seed};
 pub use impact_numerics::statistics::Estimate;
 pub use literate::experiments::cutting::SECOND;
 pub use literate::experiments::experiment::How::{Read, Whole};

@@ -94,7 +94,7 @@ pub fn runs(_: Profile) -> ReplayRuns {
 /// Returns the forces on 20 masses of which the right half mirrors the left.
 fn mirrored() -> Vec<[f64; 2]> {
     let chain = Chain { masses: 10, ..Chain::default() };
-    let half = Scenario::draw(&chain, 0.3, &mut NormalPairs::new("mirror", SEED, 0)).forcing;
+    let half = Scenario::draw(&chain, 0.3, &mut NormalPairs::new("mirror", Seed(SEED), 0)).forcing;
     let other = half.iter().rev().map(|pair| pair.map(|x| -x));
     half.iter().copied().chain(other).collect()
 }
@@ -111,7 +111,7 @@ pub fn run(parameters: &ReplayRuns, progress: &Progress) -> Result<Replays, Erro
 fn replay(request: &Request) -> Result<ReplayResult, impact_chain::Error> {
     let scenario = match &request.forces {
         Forces::Drawn { sigma, stream, seed, realisation } => {
-            let mut normals = NormalPairs::new(stream, *seed, *realisation);
+            let mut normals = NormalPairs::new(stream, Seed(*seed), *realisation);
             Scenario::draw(&request.chain, *sigma, &mut normals)
         }
         Forces::Given(pairs) => Scenario::given(&request.chain, pairs.clone())?,

@@ -2,7 +2,7 @@
 
 use impact_chain::abreast::{Abreast, Counting, Realisation};
 use impact_chain::counts::{Counts, Watch};
-use impact_chain::{Chain, Engine, Error, Initial, NormalPairs, Protocol, Scenario};
+use impact_chain::{Chain, Engine, Error, Initial, NormalPairs, Protocol, Scenario, Seed};
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow::{Break, Continue};
 use std::ops::Range;
@@ -125,7 +125,7 @@ impl Ensemble {
     }
 
     fn normals(&self, index: u64) -> NormalPairs {
-        NormalPairs::new(&self.stream, self.seed, index)
+        NormalPairs::new(&self.stream, Seed(self.seed), index)
     }
 
     /// Returns an engine at the time from which transients are measured.

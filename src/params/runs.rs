@@ -2,7 +2,7 @@
 
 use super::chosen::{SEED, printed_threshold};
 use impact_chain::{Chain, Scenario};
-use impact_numerics::random::NormalPairs;
+use impact_numerics::random::{NormalPairs, Seed};
 use literate::experiments::Profile;
 use serde::{Deserialize, Serialize};
 
@@ -35,7 +35,7 @@ impl Runs {
 
     /// Draws the forces of a realisation.
     pub fn scenario(&self, index: u64) -> Scenario {
-        let mut normals = NormalPairs::new(&self.stream, self.seed, index);
+        let mut normals = NormalPairs::new(&self.stream, Seed(self.seed), index);
         Scenario::draw(&self.chain, self.sigma, &mut normals)
     }
 }

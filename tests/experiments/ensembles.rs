@@ -2,7 +2,7 @@
 
 use impact_chain::mode_jump::{Histogram, Sample, mode_jump};
 use impact_chain::{Counts, Engine, Scenario, State};
-use impact_numerics::random::NormalPairs;
+use impact_numerics::random::{NormalPairs, Seed};
 use impact_paper::experiments::{Progress, ensembles::CUTTING};
 use impact_paper::params::{Beyond, Chain, Ensemble, Protocol, Start, lowered};
 
@@ -93,7 +93,7 @@ fn the_rise_lies_where_it_was_measured_elsewhere() {
 #[test]
 fn positions_and_velocities_are_continuous_when_the_force_is_lowered() {
     let chain = Chain { masses: 5, ..Chain::default() };
-    let scenario = Scenario::draw(&chain, 0.05, &mut NormalPairs::new("history", 1, 1));
+    let scenario = Scenario::draw(&chain, 0.05, &mut NormalPairs::new("history", Seed(1), 1));
     let (mut engine, time) = (Engine::new(&scenario).unwrap(), 7.3);
     assert_eq!(engine.impacts(time).unwrap(), []);
     let before = engine.state(time).unwrap();

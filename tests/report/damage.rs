@@ -3,7 +3,7 @@
 
 use super::QUICK;
 use impact_chain::Scenario;
-use impact_numerics::random::generator;
+use impact_numerics::random::{Seed, generator};
 use impact_paper::claims::Published;
 use literate::input::one_line;
 use literate::prose::Templates;
@@ -42,7 +42,7 @@ const SIGNS: &str = "{~}~[~]~(~)~\"~\\~,~=~\n\n~\r~\0~#~$~$$~```~*~|~> ~- ~«~»
 type Reader = fn(&str) -> Result<(), String>;
 
 fn damaged(name: &str, index: u64, good: &str) -> String {
-    let mut random = generator(name, 1, index);
+    let mut random = generator(name, Seed(1), index);
     let signs: Vec<&str> = SIGNS.split('~').collect();
     let mut bytes = good.as_bytes().to_vec();
     for _ in 0..random.random_range(1..4) {

@@ -263,7 +263,7 @@ pub fn sigma_of_half(chain: &Chain, reach: &Reach) -> f64 {
 mod tests {
     use super::*;
     use crate::impact_probability::ImpactProbability;
-    use impact_chain::NormalPairs;
+    use impact_chain::{NormalPairs, Seed};
 
     /// With ω = 1, Ω = 3 the curve is −½ sin² t (cos t, sin t).
     #[test]
@@ -334,7 +334,7 @@ mod tests {
         let (chain, sigma, draws) = (Chain::default(), 0.6, 200_000);
         let radii = directions(ANGLES).map(|[cos, _]| 1.0 + 0.5 * cos).collect();
         let chances = Chances::new(&chain, &Reach { radii }, sigma);
-        let mut normals = NormalPairs::new("neighbours", 1, 0);
+        let mut normals = NormalPairs::new("neighbours", Seed(1), 0);
         let mut counts = [0_u32; 4];
         for _ in 0..draws {
             let [a, b, c] = [normals.pair(), normals.pair(), normals.pair()];

@@ -308,7 +308,7 @@ fn masses_hit(topology: &Topology, hit: &[bool]) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Boundary, NormalPairs, Scenario};
+    use crate::{Boundary, NormalPairs, Scenario, Seed};
 
     /// Gaps 0 and 4 of four masses are at walls; on a ring of five, gap 0 joins the last and first.
     #[test]
@@ -331,7 +331,7 @@ mod tests {
     fn a_run_is_counted_alone_and_for_its_own_chain() {
         let chain = Chain { masses: 3, ..Chain::default() };
         let engine = |chain: &Chain, index| {
-            Engine::new(&Scenario::draw(chain, 0.4, &mut NormalPairs::new("watch", 1, index)))
+            Engine::new(&Scenario::draw(chain, 0.4, &mut NormalPairs::new("watch", Seed(1), index)))
         };
         let [window, other] = [5.0, 6.0].map(|transient| Protocol { transient, window: 20.0 });
         let windows = [window, Protocol { transient: 9.0, window: 1.0 }];

@@ -193,7 +193,7 @@ impl Engine {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Chain, Initial, LATEST, NormalPairs};
+    use crate::{Chain, Initial, LATEST, NormalPairs, Seed};
 
     /// An unforced elastic chain that starts with these free parts.
     fn free(parts: &[[f64; 2]]) -> Scenario {
@@ -220,7 +220,8 @@ mod tests {
 
     #[test]
     fn an_impact_is_within_a_run_until_its_time() {
-        let scenario = Scenario::draw(&Chain::default(), 0.3, &mut NormalPairs::new("end", 1, 0));
+        let scenario =
+            Scenario::draw(&Chain::default(), 0.3, &mut NormalPairs::new("end", Seed(1), 0));
         let mut engine = Engine::new(&scenario).unwrap();
         for number in 0..200 {
             let before = engine.clone();

@@ -77,7 +77,7 @@ pub use impact::Impact;
 #[cfg(feature = "methods")]
 pub use impact::Sink;
 #[cfg(feature = "random")]
-pub use impact_numerics::random::NormalPairs;
+pub use impact_numerics::random::{NormalPairs, Seed};
 #[cfg(feature = "ensembles")]
 pub use impact_numerics::statistics::Estimate;
 pub use scenario::{Initial, Overtone, Scenario};

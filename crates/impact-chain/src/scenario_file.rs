@@ -4,7 +4,7 @@ use crate::error::{Error, check_range};
 use crate::scenario::{COMPONENTS, Initial, Overtone, Scenario, draw_pairs};
 use crate::state::State;
 use crate::{Boundary, Chain, Engine};
-use impact_numerics::random::NormalPairs;
+use impact_numerics::random::{NormalPairs, Seed};
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::Value;
@@ -226,7 +226,7 @@ impl ScenarioFile {
             }
             Start::Random { sigma, seed } => {
                 check_range("initial.random.sigma", sigma, 0.0, 1e9)?;
-                let mut normals = NormalPairs::new("trace", seed, 0);
+                let mut normals = NormalPairs::new("trace", Seed(seed), 0);
                 Initial::Free(draw_pairs(masses, sigma, &mut normals))
             }
         };

@@ -53,7 +53,7 @@ pub mod prelude {
     pub use crate::table::Table;
     pub use crate::{Failure, Paper, numbers, sources};
     pub use impact_numerics::estimates::with_error;
-    pub use impact_numerics::random::{NormalPairs, generator};
+    pub use impact_numerics::random::{NormalPairs, Seed, generator};
     pub use impact_numerics::statistics::Estimate;
     pub use rand::RngExt;
 }

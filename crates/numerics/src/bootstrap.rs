@@ -1,13 +1,13 @@
 //! Computes bootstrap intervals, with a separate random stream and in a fixed order.
 
-use super::random::generator;
+use super::random::{Seed, generator};
 use super::statistics::{Estimate, quantile, standard_deviation};
 use rand::Rng;
 
 /// Draws how often each of `size` members is drawn, with replacement, in resample `index`. Equal
 /// (seed, index, size) give equal weights: one index resamples several quantities jointly.
 pub fn weights(seed: u64, index: u64, size: usize) -> Vec<u32> {
-    let mut random = generator("bootstrap", seed, index);
+    let mut random = generator("bootstrap", Seed(seed), index);
     let mut weights = vec![0; size];
     for _ in 0..size {
         // Multiply and shift: unbiased to 2^−64 · size, and the same on every machine.
@@ -59,7 +59,7 @@ pub fn estimate(value: Option<f64>, resampled: &[Option<f64>], level: f64) -> Op
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::random::NormalPairs;
+    use crate::random::{NormalPairs, Seed};
 
     #[test]
     fn an_interval_has_its_tails_outside() {
@@ -78,7 +78,7 @@ mod tests {
     fn intervals_cover_as_promised() {
         let [mut below, mut above] = [0; 2];
         for index in 0..1000 {
-            let mut normals = NormalPairs::new("coverage", 1, index);
+            let mut normals = NormalPairs::new("coverage", Seed(1), index);
             let sample: Vec<f64> = (0..20).flat_map(|_| normals.pair()).collect();
             let resample = |number| {
                 let weights = weights(index, number, 40);

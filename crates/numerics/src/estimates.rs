@@ -52,7 +52,7 @@ pub fn ratio(pairs: &[[f64; 2]]) -> Option<Estimate> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::random::NormalPairs;
+    use crate::random::{NormalPairs, Seed};
 
     /// Whether an estimate has this value and error, and their normal interval, to nine digits.
     fn near(estimate: Estimate, [value, error]: [f64; 2]) -> bool {
@@ -82,7 +82,7 @@ mod tests {
     #[test]
     fn intervals_of_means_cover_as_promised() {
         let covers = |index: &u64| {
-            let mut normals = NormalPairs::new("coverage", 2, *index);
+            let mut normals = NormalPairs::new("coverage", Seed(2), *index);
             let sample: Vec<f64> = (0..25).flat_map(|_| normals.pair()).collect();
             let [low, high] = average(&sample).unwrap().interval;
             low < 0.0 && high > 0.0

@@ -7,7 +7,9 @@
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 #![deny(unsafe_op_in_unsafe_fn)]
 
-use impact_chain::{Boundary, Chain, End, Engine, Event, Impact, NormalPairs, Scenario, Start};
+use impact_chain::{
+    Boundary, Chain, End, Engine, Event, Impact, NormalPairs, Scenario, Seed, Start,
+};
 use impact_circuits::distribution::{Law, SampleSpace};
 use impact_circuits::impact_probability::ImpactProbability;
 use impact_circuits::jump;
@@ -121,7 +123,7 @@ fn read_request(numbers: &[f64], stream: &str) -> Result<([f64; 2], Scenario), S
             Scenario::given(&chain, pairs).map_err(|error| error.to_string())?
         }
         ([sigma, seed, realisation], _) => {
-            let mut normals = NormalPairs::new(stream, *seed as u64, *realisation as u64);
+            let mut normals = NormalPairs::new(stream, Seed(*seed as u64), *realisation as u64);
             Scenario::draw(&chain, *sigma, &mut normals)
         }
         _ => return Err("a stream has sigma, seed and realisation".into()),

@@ -4,7 +4,8 @@ mod arguments;
 
 use arguments::{chain_from, json_value, json_values, refused, to_python, whole_number};
 use impact_chain::{
-    Abreast, Counting, Counts, Engine, Error, Event, Impact, NormalPairs, Protocol, State, Watch,
+    Abreast, Counting, Counts, Engine, Error, Event, Impact, NormalPairs, Protocol, Seed, State,
+    Watch,
 };
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
@@ -108,7 +109,7 @@ impl Scenario {
         chain: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Scenario> {
         let (index, seed) = (whole_number("index", index)?, whole_number("seed", seed)?);
-        let mut normals = NormalPairs::new(stream, seed, index);
+        let mut normals = NormalPairs::new(stream, Seed(seed), index);
         let scenario = impact_chain::Scenario::draw(&chain_from(chain)?, sigma, &mut normals);
         scenario.validate().map_err(to_python)?;
         Ok(Scenario(scenario))
@@ -333,7 +334,11 @@ fn ensemble<'py>(
         let stopped = || stop.load(Relaxed);
         let counting = Counting::new(&chain, &windows, until);
         let draw = |index| {
-            impact_chain::Scenario::draw(&chain, sigma, &mut NormalPairs::new(stream, seed, index))
+            impact_chain::Scenario::draw(
+                &chain,
+                sigma,
+                &mut NormalPairs::new(stream, Seed(seed), index),
+            )
         };
         let batch = Abreast::batch_size(&chain) as u64;
         let starts: Vec<u64> = (0..realisations).step_by(batch as usize).collect();

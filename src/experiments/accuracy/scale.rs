@@ -21,7 +21,7 @@ pub fn run(parameters: &ScaleParams, progress: &Progress) -> Result<Scale, Error
     let stage = progress.stage("work against size", cases.len() as u64);
     run_each(&stage, progress, cases, |(setting, masses)| {
         let chain = Chain { masses, ..Chain::default() };
-        let mut normals = NormalPairs::new(BENCH.0, BENCH.1, 0);
+        let mut normals = NormalPairs::new(BENCH.0, Seed(BENCH.1), 0);
         let scenario = Scenario::draw(&chain, parameters.sigma, &mut normals);
         let (start, until) = (State::from_scenario(&scenario), until(setting, masses));
         let mut go_on = |_| !progress.stopped();

@@ -156,7 +156,7 @@ pub(super) mod tests {
     /// Places on both branches: a shared part, with a standard deviation of 0.06, and parts with
     /// 0.03 and 0.04. The distance of the half heights then has the error 0.05/√12.
     fn drawn(index: u64) -> [Vec<f64>; 2] {
-        let mut normals = NormalPairs::new("test of branches", 1, index);
+        let mut normals = NormalPairs::new("test of branches", Seed(1), index);
         let mut places = [Vec::new(), Vec::new()];
         for _ in 0..CHAINS {
             let ([both, _], [rest, above]) = (normals.pair(), normals.pair());

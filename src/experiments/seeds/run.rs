@@ -98,7 +98,7 @@ fn trace(
 ) -> Result<Option<Trace>, Error> {
     progress.check()?;
     let chain = &parameters.chain;
-    let mut normals = NormalPairs::new("seeds", SEED, index);
+    let mut normals = NormalPairs::new("seeds", Seed(SEED), index);
     let (forcing, seed) = Search { chain, sigma, normals: &mut normals }.chain();
     let fault = |source| Error::failed("seeds", source);
     let scenario = Scenario::given(chain, forcing).map_err(fault)?;
@@ -142,7 +142,7 @@ mod tests {
     #[test]
     fn a_drawn_chain_has_one_gap_that_closes_by_itself() {
         let (chain, sigma) = (Chain { masses: 5, ..Chain::default() }, 0.25);
-        let mut normals = NormalPairs::new("test of seeds, whole chains", 1, 0);
+        let mut normals = NormalPairs::new("test of seeds, whole chains", Seed(1), 0);
         let mut whole = || loop {
             let forcing: Vec<[f64; 2]> =
                 (0..5).map(|_| normals.pair().map(|x| sigma * x)).collect();
@@ -153,7 +153,7 @@ mod tests {
         // For each gap the shares of chains that have it, and the mean square of the forces then.
         let mut sums = [[[0.0; 2]; 6]; 2];
         for index in 0..20_000 {
-            let mut normals = NormalPairs::new("test of seeds", 1, index);
+            let mut normals = NormalPairs::new("test of seeds", Seed(1), index);
             let drawn = Search { chain: &chain, sigma, normals: &mut normals }.chain();
             assert_eq!(closing(&chain, &drawn.0), [drawn.1]);
             for (sums, (forcing, seed)) in sums.iter_mut().zip([drawn, whole()]) {

@@ -216,14 +216,14 @@ impl Realisation {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::NormalPairs;
+    use crate::{NormalPairs, Seed};
     use fearless_simd::Simd;
 
     /// A realisation that ends early has the impacts of the whole one up to the first after a time.
     #[test]
     fn realisations_end_with_the_impact_that_is_asked_for() {
         let chain = Chain { masses: 30, ..Chain::default() };
-        let draw = |i| Scenario::draw(&chain, 0.2, &mut NormalPairs::new("first", 1, i));
+        let draw = |i| Scenario::draw(&chain, 0.2, &mut NormalPairs::new("first", Seed(1), i));
         let scenarios: Vec<Scenario> = (0..16).map(draw).collect();
         let many = Abreast::new(&chain, &[], 60.0).unwrap();
         let early = many.clone().until_first_after(30.0);
@@ -252,7 +252,8 @@ mod tests {
             [(0.3, 2.0_f64.sqrt(), 0.06), (0.3, 0.6, 0.05), (1.0, 2.3, 0.09)]
         {
             let chain = Chain { masses: 30, forcing_frequency: frequency, ..Chain::default() };
-            let draw = |i| Scenario::draw(&chain, sigma, &mut NormalPairs::new("decided", 1, i));
+            let draw =
+                |i| Scenario::draw(&chain, sigma, &mut NormalPairs::new("decided", Seed(1), i));
             let scenarios: Vec<Scenario> = (0..16).map(draw).collect();
             let runs = Abreast::new(&chain, &[], 100.0).unwrap().run(&scenarios, &|| false);
             let [mut impacts, mut decided] = [0; 2];
@@ -280,7 +281,7 @@ mod tests {
                 .flatten(),
         );
         let chain = Chain { masses: 30, ..Chain::default() };
-        let draw = |i| Scenario::draw(&chain, 0.3, &mut NormalPairs::new("bits", 1, i));
+        let draw = |i| Scenario::draw(&chain, 0.3, &mut NormalPairs::new("bits", Seed(1), i));
         let scenarios: Vec<Scenario> = (0..16).map(draw).collect();
         let many = Abreast::new(&chain, &[], 300.0).unwrap();
         let bits = |run: Option<Realisation>| {

@@ -212,7 +212,7 @@ pub fn cos_sin(x: f64) -> (f64, f64) {
 mod tests {
     use super::*;
     use fearless_simd::{Level, dispatch};
-    use impact_numerics::random::NormalPairs;
+    use impact_numerics::random::{NormalPairs, Seed};
     use impact_numerics::roots::bracket;
 
     /// Returns the gap with a forced part, and with this width and rate at s.
@@ -230,7 +230,7 @@ mod tests {
     fn dips_of_known_depth() {
         let (half, mut seen) = (0.125, [0; 4]);
         for i in 0..60_000u64 {
-            let mut normals = NormalPairs::new("dips", 1, i);
+            let mut normals = NormalPairs::new("dips", Seed(1), i);
             let ([size, place], [v, z]) = (normals.pair(), normals.pair());
             let ratio = [0.6, 1.4, 1.9][i as usize % 3];
             let depth = 10.0_f64.powi(-1 - (i / 3 % 11) as i32) * [1.0, -1.0][i as usize / 33 % 2];

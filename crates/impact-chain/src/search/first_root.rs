@@ -139,7 +139,7 @@ impl<const M: usize> Search<M> {
 mod tests {
     use super::*;
     use crate::search::truth::{derivative, frame};
-    use impact_numerics::random::NormalPairs;
+    use impact_numerics::random::{NormalPairs, Seed};
 
     #[test]
     fn a_gap_at_zero_or_below_is_hit_at_once_unless_it_opens() {
@@ -164,7 +164,7 @@ mod tests {
         let frequencies = &search.frequencies;
         let mut tried = [0; 3];
         for i in 0..4000 {
-            let mut normals = NormalPairs::new("dips", 1, i);
+            let mut normals = NormalPairs::new("dips", Seed(1), i);
             let ([q, v], [x, y]) = (normals.pair(), normals.pair());
             let s = 0.05 + 0.9 * frequencies.reach * (0.5 + y.atan2(x) / std::f64::consts::TAU);
             // At s the slope is zero, and the curvature 1e-4 to 1.

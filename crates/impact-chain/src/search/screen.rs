@@ -199,7 +199,7 @@ impl Coefficients {
 mod tests {
     use super::*;
     use crate::search::truth::{derivative, frame};
-    use impact_numerics::random::NormalPairs;
+    use impact_numerics::random::{NormalPairs, Seed};
 
     /// A sinusoid of the highest frequency about the middle of a piece has |f⁽⁸⁾| = M₈ there: q is
     /// never above it, and touches it within a tenth of the remainder where f⁽⁸⁾ < 0.
@@ -232,7 +232,7 @@ mod tests {
     #[test]
     fn roundings_are_below_half_the_slack() {
         let frequencies = Frequencies::new(1.0, [1.5]);
-        let mut normals = NormalPairs::new("slack", 1, 0);
+        let mut normals = NormalPairs::new("slack", Seed(1), 0);
         for _ in 0..300 {
             let frame = frame(1.0, [normals.pair(), normals.pair()], &frequencies);
             let c = Piece::new(0.5, 0.7, &frequencies).coefficients(&frame);

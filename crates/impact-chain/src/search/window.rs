@@ -87,7 +87,7 @@ impl Part {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use impact_numerics::random::NormalPairs;
+    use impact_numerics::random::{NormalPairs, Seed};
     use std::f64::consts::{PI, SQRT_2};
 
     /// At s one part is lowest and the other enters its window, so the sum is zero at last.
@@ -95,7 +95,7 @@ mod tests {
     fn a_window_opens_just_before_the_sum_can_be_zero() {
         let frequencies = Frequencies::new(1.0, [SQRT_2]);
         for i in 0..4000 {
-            let [x, y] = NormalPairs::new("window", 1, i).pair();
+            let [x, y] = NormalPairs::new("window", Seed(1), i).pair();
             let (s, cosine) = ([0.1, 300.0][i as usize / 2 % 2] * y.abs(), x / (1.0 + x.abs()));
             let (edge, lowest, entry) = (1.0 + x * x, 1.0 + y * y, PI - cosine.acos());
             let [angles, amplitudes] = match i % 2 {

@@ -1,9 +1,9 @@
 //! Compares chains that are simulated side by side with the engine.
 
 use crate::{drawn, first, given};
-use impact_chain::NormalPairs;
 use impact_chain::abreast::{Abreast, Realisation};
 use impact_chain::{Boundary, Chain, Counts, Engine, Overtone, Protocol, Scenario, Start, Watch};
+use impact_chain::{NormalPairs, Seed};
 
 const END: f64 = 30.0;
 
@@ -194,7 +194,7 @@ fn dips_after_an_impact_of_the_same_gap_are_seen() {
 fn dips_beside_an_impact_are_seen() {
     let mut hits = [0; 2];
     for i in 0..40_000u64 {
-        let mut normals = NormalPairs::new("turns", 1, i);
+        let mut normals = NormalPairs::new("turns", Seed(1), i);
         let ([c, s], [place, depth]) = (normals.pair(), normals.pair());
         let big_w: f64 = [0.6, 1.2, 1.99][i as usize % 3];
         let rebounds = i % 2 == 0;

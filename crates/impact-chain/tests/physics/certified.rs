@@ -8,7 +8,7 @@ use crate::reference::{Dd, Reference};
 use crate::{first, given};
 use impact_chain::rounding::TIME;
 use impact_chain::{Boundary, Chain, End, Engine, Event, Initial, Overtone, Scenario};
-use impact_numerics::random::NormalPairs;
+use impact_numerics::random::{NormalPairs, Seed};
 use std::ops::ControlFlow::Continue;
 
 /// The closing speed is off by at most ε S (C′ max(ω, Ω) + C M₂/v), where M₂ = ω² R₁ +
@@ -119,7 +119,7 @@ fn hold(scenario: &Scenario, until: f64, tally: &mut Tally) {
 /// A random scenario of few masses, biased to extreme cases: sizes over decades, gaps that
 /// nearly or just cannot close, masses that start touching, frequencies near and far.
 fn corner(index: u64) -> Option<Scenario> {
-    let mut normals = NormalPairs::new("segments", 3, index);
+    let mut normals = NormalPairs::new("segments", Seed(3), index);
     let mut pick = |n: usize| {
         let [x, y] = normals.pair();
         ((x.atan2(y) / std::f64::consts::TAU + 0.5) * n as f64) as usize % n

@@ -5,7 +5,9 @@ use impact_chain::methods::{
     Advancement, Certified, Cost, Method, MoreauJean, Penalty, RungeKutta, Sampled, Task, Verlet,
     VerletAbreast, Window,
 };
-use impact_chain::{Boundary, Chain, Engine, Error, Impact, Initial, NormalPairs, Scenario, State};
+use impact_chain::{
+    Boundary, Chain, Engine, Error, Impact, Initial, NormalPairs, Scenario, Seed, State,
+};
 
 fn chain(masses: usize, boundary: Boundary, sigma: f64, index: u64) -> Scenario {
     let (spacing, w) = if boundary == Boundary::Ring { (2.0, 1.25) } else { (1.0, 1.0) };
@@ -261,7 +263,7 @@ fn costs_are_counted_as_declared() {
 fn an_advance_goes_to_the_zero_of_the_parabola() {
     let (frequencies, mut safe) = ([1.1, 0.6], 0);
     for index in 0..100 {
-        let mut normals = NormalPairs::new("advance", 1, index);
+        let mut normals = NormalPairs::new("advance", Seed(1), index);
         let parts = [(); 2].map(|()| [(); 3].map(|()| normals.pair().map(|x| 0.25 * x)));
         let forcing = parts[1].map(|part| part.map(|x| (1.21 - 0.36) * x)).to_vec();
         let one = Scenario { forcing_frequency: 0.6, ..given(parts[0].to_vec(), forcing) };

@@ -4,7 +4,7 @@ use crate::reference::{Dd, Hit, Reference};
 use crate::{drawn, trace};
 use impact_chain::methods::truth::TrueMotion;
 use impact_chain::{Boundary, Chain, Engine, Overtone, Scenario, Start, State};
-use impact_numerics::random::NormalPairs;
+use impact_numerics::random::{NormalPairs, Seed};
 
 /// Compares the impacts of a scenario with those of the reference, which are returned.
 fn compared(scenario: &Scenario, until: f64, case: &str) -> Vec<Hit> {
@@ -83,7 +83,7 @@ fn the_true_motion_has_digits_beyond_doubles() {
 
 /// A chain whose components share the mean square displacement that σ = `sigma` gives.
 pub fn several(chain: &Chain, sigma: f64, frequencies: &[f64], index: u64) -> Scenario {
-    let mut normals = NormalPairs::new("components", 1, index);
+    let mut normals = NormalPairs::new("components", Seed(1), index);
     let mut scenario = Scenario::draw(chain, sigma, &mut normals);
     let w = scenario.natural_frequency;
     let share = sigma / (frequencies.len() as f64).sqrt();

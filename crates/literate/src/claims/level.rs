@@ -55,7 +55,7 @@ impl CheckLevel {
 mod tests {
     use super::*;
     use crate::sample::{average, share};
-    use impact_numerics::random::NormalPairs;
+    use impact_numerics::random::{NormalPairs, Seed};
 
     /// Of 4000 papers with four right numbers, means of few values, 40 have a check that fails,
     /// with a deviation of six.
@@ -64,7 +64,7 @@ mod tests {
         for (values, stream) in [(3, 0), (5, 4000), (20, 8000)] {
             let level = CheckLevel::for_checks(4);
             let fails = |paper: &u64| {
-                let mut normals = NormalPairs::new("papers", 1, stream + paper);
+                let mut normals = NormalPairs::new("papers", Seed(1), stream + paper);
                 (0..4).any(|_| {
                     let sample: Vec<f64> = (0..values).map(|_| normals.pair()[0]).collect();
                     let mean = average(&sample).unwrap();

@@ -214,7 +214,11 @@ mod tests {
     #[test]
     fn results_come_back_to_the_bit_and_what_is_not_finite_is_not_saved() {
         let folder = tempfile::tempdir().unwrap();
-        let mut normals = impact_numerics::random::NormalPairs::new("test-store", 1, 0);
+        let mut normals = impact_numerics::random::NormalPairs::new(
+            "test-store",
+            impact_numerics::random::Seed(1),
+            0,
+        );
         let mut result: Vec<_> = (0..500).flat_map(|_| normals.pair()).map(Some).collect();
         result.extend([None, Some(-0.0), Some(f64::MIN_POSITIVE / 4.0), Some(f64::MAX)]);
         let store = Store::open(folder.path());
