@@ -23,7 +23,7 @@ pub fn values(_: &Results, _: &Published) -> Result<Vec<Value>, Failure> {
         Value::integer("statistical_claims", level.claims),
         Value::real("claim_quantile", level.quantile, 3),
         Value::real("family_level", FAMILY_LEVEL, 1),
-        Value::text("version", env!("CARGO_PKG_VERSION")),
+        Value::words("version", env!("CARGO_PKG_VERSION")),
     ];
     Ok(values.map(|value| value.source(origin(claims::level))).into())
 }
@@ -37,21 +37,27 @@ pub fn rows(results: &Results, checks: &[Check]) -> Result<BTreeMap<&'static str
     let methods = || trials.parameters.settings.chunk_by(|a, b| a.method == b.method);
     let heads: Vec<String> = methods().map(titled).collect();
     let sizes: Vec<usize> = methods().map(<[_]>::len).collect();
-    let trials = trials.parameters.scenes.iter().zip(&trials.found);
-    let tested: Vec<&Program> =
-        results.of(&PROGRAMS)?.iter().filter(|of| !of.settings.is_empty()).collect();
+    let trials = trials.parameters.scenes.iter().zip(&trials.trials);
+    let programs = results.of(&PROGRAMS)?.iter();
+    let tested: Vec<&Program> = programs.filter(|program| !program.settings.is_empty()).collect();
     Ok(BTreeMap::from([
-        ("basis_table", Basis::ALL.iter().filter_map(|basis| split(*basis, &statements)).collect()),
+        (
+            "basis_table",
+            Basis::ALL.iter().filter_map(|basis| basis_row(*basis, &statements)).collect(),
+        ),
         ("scene_heads", json!(heads)),
-        ("scene_table", trials.map(|(all, found)| scene(&all.what, found, &sizes)).collect()),
-        ("program_heads", json!(tested.iter().map(|of| &of.settings[0].name).collect::<Vec<_>>())),
+        ("scene_table", trials.map(|(scene, trials)| scene_row(scene, trials, &sizes)).collect()),
+        (
+            "program_heads",
+            json!(tested.iter().map(|program| &program.settings[0].name).collect::<Vec<_>>()),
+        ),
         ("program_table", program_table(&tested)),
     ]))
 }
 
-/// A basis, how many statements rest on it, how many of these are reproduced, and a sign for each,
-/// by verdict; none if no statement rests on it.
-fn split(basis: Basis, checks: &[&Check]) -> Option<Json> {
+/// Returns a basis, how many statements rest on it, how many of these are reproduced, and a sign
+/// for each, by verdict, or `None` if no statement rests on it.
+fn basis_row(basis: Basis, checks: &[&Check]) -> Option<Json> {
     let mut own: Vec<_> = checks.iter().filter(|check| check.basis == basis).collect();
     own.sort_by_key(|check| Verdict::ALL.iter().position(|verdict| *verdict == check.verdict));
     let signs: Vec<_> = own.iter().map(|check| format!("[@sign:{}]", check.id)).collect();
@@ -66,56 +72,57 @@ fn split(basis: Basis, checks: &[&Check]) -> Option<Json> {
     })
 }
 
-/// The value of the scorecard with this name, as a template writes it.
+/// Returns the mark that stands for a value of the scorecard in a template.
 fn mark(name: &str) -> String {
     framed(&format!("score.{}", name.replace(' ', "_")), "")
 }
 
-/// The rows of the table of scenes for programs that people use.
+/// Returns the rows of the table of scenes for programs that people use.
 fn program_table(tested: &[&Program]) -> Json {
-    let sizes: Vec<usize> = tested.iter().map(|of| of.settings.len()).collect();
-    let row = |of_scene: &Scene| {
-        let runs = tested.iter().flat_map(|of| &of.settings);
-        let found: Vec<Trial> = runs.map(|run| run.trial(of_scene).clone()).collect();
-        scene(&of_scene.what, &found, &sizes)
+    let sizes: Vec<usize> = tested.iter().map(|program| program.settings.len()).collect();
+    let row = |scene: &Scene| {
+        let runs = tested.iter().flat_map(|program| &program.settings);
+        let trials: Vec<Trial> = runs.map(|run| run.trial(scene).clone()).collect();
+        scene_row(scene, &trials, &sizes)
     };
     scenes().iter().map(row).collect()
 }
 
-/// What goes wrong most often in a scene with each method, at its settings from coarse to fine, and
-/// in how many cases; and whether failures end with an error or with a wrong result that looks like
-/// a right one. No method here warns of a result that it gives. `sizes` counts settings by method.
-fn scene(what: &str, trials: &[Trial], sizes: &[usize]) -> Json {
-    // In how many cases, and what.
+/// Returns what goes wrong most often in a scene with each method, at its settings from coarse to
+/// fine, and in how many cases; and whether failures end with an error or with a wrong result that
+/// looks like a right one. No method here warns of a result that it gives. `sizes` counts the
+/// settings of each method.
+fn scene_row(scene: &Scene, trials: &[Trial], sizes: &[usize]) -> Json {
+    // In how many cases, and the label of the outcome.
     let outcome = |trial: &Trial| match (trouble(trial), trial.len() - right(trial), trial.len()) {
         (None, ..) => (String::new(), "right"),
-        (Some(trouble), _, 1) => (String::new(), trouble.words()),
-        (Some(trouble), wrong, all) if wrong == all => ("all".into(), trouble.words()),
-        (Some(trouble), wrong, _) => (wrong.to_string(), trouble.words()),
+        (Some(trouble), _, 1) => (String::new(), trouble.label()),
+        (Some(trouble), wrong, cases) if wrong == cases => ("all".into(), trouble.label()),
+        (Some(trouble), wrong, _) => (wrong.to_string(), trouble.label()),
     };
-    let (mut cells, mut all) = (Vec::new(), trials.iter());
+    let (mut cells, mut settings) = (Vec::new(), trials.iter());
     for &size in sizes {
-        let mut outcomes: Vec<_> = all.by_ref().take(size).map(outcome).collect();
+        let mut outcomes: Vec<_> = settings.by_ref().take(size).map(outcome).collect();
         if outcomes.iter().all(|other| *other == outcomes[0]) {
             outcomes.truncate(1);
         }
-        // Of neighbours with the same words, the last has them.
-        let text = |(i, (number, words)): (usize, &(String, &str))| match outcomes.get(i + 1) {
-            Some(next) if next.1 == *words && !number.is_empty() => number.clone(),
-            _ => format!("{number} {words}").trim().to_string(),
+        // Of neighbours with the same label, the last has it.
+        let part = |(i, (number, label)): (usize, &(String, &str))| match outcomes.get(i + 1) {
+            Some(next) if next.1 == *label && !number.is_empty() => number.clone(),
+            _ => format!("{number} {label}").trim().to_string(),
         };
-        cells.push(outcomes.iter().enumerate().map(text).collect::<Vec<_>>().join("; "));
+        cells.push(outcomes.iter().enumerate().map(part).collect::<Vec<_>>().join("; "));
     }
-    let mut all = trials.iter().flatten();
-    let said =
+    let mut outcomes = trials.iter().flatten();
+    let is_said =
         |outcome: &Outcome| matches!(outcome, Outcome::GaveUp | Outcome::Refused | Outcome::Warned);
-    let announced = all.clone().any(said);
-    let silent = all.any(|outcome| *outcome != Outcome::Right && !said(outcome));
+    let announced = outcomes.clone().any(is_said);
+    let silent = outcomes.any(|outcome| *outcome != Outcome::Right && !is_said(outcome));
     let failure = match (announced, silent) {
         (false, false) => "–",
         (true, false) => "announced",
         (false, true) => "silent",
         (true, true) => "silent or announced",
     };
-    json!({"name": what, "cases": trials[0].len(), "cells": cells, "failure": failure})
+    json!({"name": scene.title, "cases": trials[0].len(), "cells": cells, "failure": failure})
 }

@@ -4,10 +4,10 @@
 //! Chain i of n masses starts from rest; its forcing is drawn from stream i of the seed.
 
 use clap::Parser;
-use impact_chain::methods::{Certified, Method, VerletAbreast};
+use impact_chain::methods::{Certified, Method, Task, VerletAbreast, Window};
 use impact_chain::{Abreast, without_wide_vectors};
 use impact_chain::{Counters, Engine, Error, Protocol, Scenario, State};
-use impact_numerics::random::NormalPairs;
+use impact_numerics::random::{NormalPairs, Seed};
 use impact_paper::params::{
     BiasParams, Chain, Means, MethodName, Profile, RaceParams, Runs, ScaleParams, Setting,
 };
@@ -107,7 +107,7 @@ fn main() -> Result<(), Failure> {
 /// The chain `behind` places after that of `drawn` in the stream.
 fn draw(drawn: &Drawn, behind: u64) -> Result<Scenario, Failure> {
     let chain = Chain { masses: drawn.masses, restitution: RESTITUTION, ..Chain::default() };
-    let mut normals = NormalPairs::new("bench", SEED, drawn.chain + behind);
+    let mut normals = NormalPairs::new("bench", Seed(SEED), drawn.chain + behind);
     let scenario = Scenario::draw(&chain, drawn.sigma, &mut normals);
     scenario.validate()?;
     Ok(scenario)
@@ -259,7 +259,7 @@ fn once(case: &Case, method: &dyn Method, scenarios: &[Scenario]) -> Result<u64,
     let Case { runs, window, first, .. } = case;
     let from = window.map_or(f64::INFINITY, |window| window.transient);
     let alone = |scenario: &Scenario| {
-        let task = (scenario, &State::of(scenario), runs.until);
+        let task = Task { scenario, start: &State::from_scenario(scenario), until: runs.until };
         // A run that the method gives up counts with the time that it took.
         match method.run(task, &mut |impact| !(*first && impact.time > from)) {
             Err(Error::Work { .. }) => Ok(0),
@@ -267,7 +267,8 @@ fn once(case: &Case, method: &dyn Method, scenarios: &[Scenario]) -> Result<u64,
         }
     };
     if method.name() == MethodName::VerletAbreast.id() {
-        let (step, window) = (case.setting.value, window.map(|_| (from, *first)));
+        let (step, window) =
+            (case.setting.value, window.map(|_| Window { after: from, ends_with_one: *first }));
         let ran = VerletAbreast { step }.run_all(scenarios, runs.until, window, &mut |_, _| true);
         return Ok(ran?.0.impacts);
     }
@@ -277,7 +278,7 @@ fn once(case: &Case, method: &dyn Method, scenarios: &[Scenario]) -> Result<u64,
     };
     let many = if *first { many.until_first_after(from) } else { many };
     let mut impacts = 0;
-    for some in scenarios.chunks(Abreast::number(&runs.chain)) {
+    for some in scenarios.chunks(Abreast::batch_size(&runs.chain)) {
         for (run, scenario) in many.run(some, &|| false).into_iter().zip(some) {
             impacts += match run {
                 Some(mut run) => run.counts().total.impacts,

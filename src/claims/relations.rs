@@ -41,7 +41,7 @@ fn relation(id: &'static str, departures: fn(&Evidence<'_>) -> Departures) -> Ru
     let judge = move |e: &Evidence<'_>| {
         let departures = match departures(e) {
             Err(Undecided) => Vec::new(),
-            found => found?,
+            departures => departures?,
         };
         let largest = departures.iter().copied().fold(0.0, f64::max);
         let agrees = departures.iter().all(|departure| *departure <= 1.0);
@@ -81,9 +81,11 @@ fn two_seeds(e: &Evidence<'_>) -> Departures {
         Some(difference(estimate(same)?, estimate(row)?))
     };
     let differences = second.rows.iter().filter_map(between);
-    let differences: Vec<Estimate> = differences.filter(|found| found.error > 0.0).collect();
-    let quantile = e.level()?.among(differences.len());
-    departures.extend(differences.iter().map(|found| found.value.abs() / (quantile * found.error)));
+    let differences: Vec<Estimate> =
+        differences.filter(|difference| difference.error > 0.0).collect();
+    let quantile = e.level()?.quantile_among(differences.len());
+    let share = |difference: &Estimate| difference.value.abs() / (quantile * difference.error);
+    departures.extend(differences.iter().map(share));
     Ok(departures)
 }
 
@@ -101,11 +103,11 @@ fn laws_of_chance(e: &Evidence<'_>) -> Departures {
     let mut departures = Vec::new();
     for (nested, share) in laws {
         let sum = |decades: &[u64]| decades.iter().sum::<u64>() as f64;
-        let (all, nearer) = (sum(&nested[..nested.len() - 1]), sum(&nested[1..]));
-        let error = (share * (1.0 - share) / all).sqrt();
+        let (outer, inner) = (sum(&nested[..nested.len() - 1]), sum(&nested[1..]));
+        let error = (share * (1.0 - share) / outer).sqrt();
         // Where hardly any is expected the error is not that of a normal variable.
-        if share * all >= 10.0 {
-            departures.push((nearer / all - share).abs() / (e.level()?.quantile * error));
+        if share * outer >= 10.0 {
+            departures.push((inner / outer - share).abs() / (e.level()?.quantile * error));
         }
     }
     Ok(departures)
@@ -150,7 +152,7 @@ fn no_rise_before_seeds(e: &Evidence<'_>) -> Departures {
     Ok(places.into_iter().map(early).collect())
 }
 
-/// Returns an excess over the allowed one; 0 if there is none.
+/// Returns an excess over the one that is allowed, 0 if there is none.
 fn over(excess: f64, allowed: f64) -> f64 {
     if excess <= 0.0 { 0.0 } else { excess / allowed }
 }
@@ -204,9 +206,9 @@ const WAITING: f64 = 8.0;
 fn engine_as_promised(e: &Evidence<'_>) -> Departures {
     let mut departures = Vec::new();
     // The engine is the first of the methods.
-    let trials = e.results.of(&TRIALS)?.found.iter().map(|trials| &trials[0]);
+    let trials = e.results.of(&TRIALS)?.trials.iter().map(|trials| &trials[0]);
     let wrong =
-        trials.flatten().filter(|found| !matches!(found, Outcome::Right | Outcome::Refused));
+        trials.flatten().filter(|outcome| !matches!(outcome, Outcome::Right | Outcome::Refused));
     departures.push(2.0 * wrong.count() as f64);
     let race = e.results.of(&RACE)?.entries.iter();
     if let Some(engine) = race.clone().find(|entry| entry.setting.method == MethodName::Certified) {

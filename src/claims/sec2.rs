@@ -60,7 +60,7 @@ pub(super) const VERY_FEW: f64 = 20.0;
 
 /// Returns the row of the smallest σ in each window of the map that begins late enough.
 fn small_in_windows<'a>(e: &Evidence<'a>) -> Result<Vec<&'a RisePoint>, Error> {
-    Ok(late(e, "sweep")?.iter().filter_map(|curve| curve.rows.first()).collect())
+    Ok(late_curves(e, "sweep")?.iter().filter_map(|curve| curve.rows.first()).collect())
 }
 
 /// By the mean of the realisations with an impact, in each window of the map of protocols.
@@ -72,22 +72,11 @@ fn few_below(e: &Evidence<'_>) -> Judged {
     let means: Vec<Estimate> = means.collect();
     let few = means.iter().filter(|mean| mean.value <= limit).count();
     let [first, .., last] = means[..] else { return Err(Undecided) };
-    let (all, sigma) = (means.len(), row.sigma);
-    let released = RELEASED;
+    let (all, released) = (means.len(), RELEASED);
+    let RisePoint { sigma, kept, ran, .. } = *row;
     e.check(
         by_runs([few, all - few, all]),
-        numbers![
-            sigma,
-            here,
-            limit,
-            all,
-            released,
-            few,
-            first,
-            last,
-            kept = row.kept,
-            ran = row.ran
-        ],
+        numbers![sigma, here, limit, all, released, few, first, last, kept, ran],
     )
 }
 
@@ -101,7 +90,7 @@ fn none_below(e: &Evidence<'_>) -> Judged {
     let none = intervals.clone().filter(|[_, high]| *high <= limit).count();
     let some = intervals.filter(|[low, _]| *low > limit).count();
     let shares = rows.iter().map(|row| row.kept as f64 / row.ran as f64);
-    let [least, most] = ends(shares).ok_or(Undecided)?;
+    let [least, most] = extremes(shares).ok_or(Undecided)?;
     let random = e.number(&format!("theory.gap[sigma={}].any_random", row.sigma))?;
     let half = e.estimate("sweep.rise.kept_half")?;
     let (all, sigma, released) = (rows.len(), row.sigma, RELEASED);
@@ -133,9 +122,10 @@ fn passings<'a>(e: &Evidence<'a>) -> Result<Vec<(Protocol, &'a Passing)>, Error>
 fn mode_jump(e: &Evidence<'_>) -> Judged {
     let [transient, window] = e.numbers("sweep.run", ["transient", "window"])?;
     let row = format!("jump.windows[transient={transient},window={window}]");
-    let [place, below] = ["place", "below"].map(|name| e.estimate(&format!("{row}.{name}")));
+    let estimate = |name| e.estimate(&format!("{row}.{name}"));
+    let (place, below) = (estimate("place")?, estimate("below")?);
     let gaps = e.number("sweep.run.gaps")?;
-    let half_heights = late(e, "protocol")?;
+    let half_heights = late_curves(e, "protocol")?;
     let [from, to] = e.published.statement("sec2_half_height")?.interval()?;
     let has_printed_digits = |protocol: Protocol| {
         let mut halves = half_heights.iter().filter(|curve| curve.protocol == protocol);
@@ -150,29 +140,18 @@ fn mode_jump(e: &Evidence<'_>) -> Judged {
     let single = run.windows.iter().filter(|w| w.jump.single_gap.is_jump() == Some(true)).count();
     let [windows, sure, no] = e.numbers("jump.run", ["windows", "jumps", "climbs"])?;
     let (all, tenth, released) = (outcomes.len(), gaps / 10.0, RELEASED);
-    let found = numbers![
-        below = below?,
-        gaps,
-        place = place?,
-        transient,
-        window,
-        tenth,
-        all,
-        released,
-        jumps,
-        climbs,
-        windows,
-        sure,
+    let numbers = numbers![
+        below, gaps, place, transient, window, tenth, all, released, jumps, climbs, windows, sure,
         no
     ];
-    let check = e.check(by_runs([jumps, climbs, all]), found)?;
-    let lower = ["single_place", "single_above"].map(|name| e.estimate(&format!("{row}.{name}")));
-    let [Ok(lower), Ok(above)] = lower else { return Ok(check) };
+    let check = e.check(by_runs([jumps, climbs, all]), numbers)?;
+    let [Ok(lower), Ok(above)] = ["single_place", "single_above"].map(estimate) else {
+        return Ok(check);
+    };
     let is_sure = e.number(&format!("{row}.single_jumps")).is_ok();
     let key = if is_sure { "note_single" } else { "note_single_open" };
-    let note = e.text(key, numbers![lower, above, single])?;
-    let note = check.note.clone().then(" ").then(note);
-    Ok(check.note(note))
+    let note = e.sentence(key, numbers![lower, above, single])?;
+    Ok(with_more(check, note))
 }
 
 /// Against a chain in which each gap closes by itself: its rise from a quarter to three quarters,
@@ -186,11 +165,11 @@ fn rise_exists(e: &Evidence<'_>) -> Judged {
     let limit = 0.5 * (three_quarters - quarter) / middle;
     let [a, b] = [&width, &half].map(|x| (x.error / x.value) * (x.error / x.value));
     let error = share * (a + b).sqrt();
-    let windows = late(e, "protocol")?;
+    let windows = late_curves(e, "protocol")?;
     let share_in =
         |window: &&Curve| Some(window.rise.kept_width?.value / window.rise.half_height?.value);
     let shares: Vec<f64> = windows.iter().filter_map(share_in).collect();
-    let [least, most] = ends(shares.iter().copied()).ok_or(Undecided)?;
+    let [least, most] = extremes(shares.iter().copied()).ok_or(Undecided)?;
     let (all_rise, known) = (e.estimate("sweep.rise.width")?, shares.len());
     let agrees = share <= limit + e.level()?.quantile * error;
     let (share, windows, released) = (with_error(share, error), windows.len(), RELEASED);
@@ -222,16 +201,17 @@ fn by_protocol(e: &Evidence<'_>, name: &str, place: fn(&Rise) -> Option<Estimate
     let mut pieces = Vec::new();
     let random = ensemble(e.results.of(&LENGTHS)?, "random")?.curves.iter().collect();
     for (windows, key) in
-        [late(e, "protocol")?, random].into_iter().zip(["note_rest", "note_random"])
+        [late_curves(e, "protocol")?, random].into_iter().zip(["note_rest", "note_random"])
     {
-        let mut at: Vec<Estimate> = windows.iter().filter_map(|it| place(&it.rise)).collect();
-        at.sort_by(|a, b| a.value.total_cmp(&b.value));
-        let printed = at.iter().filter(|place| (from..to).contains(&place.value)).count();
-        (agree, known, all) = (agree + printed, known + at.len(), all + windows.len());
-        if let [Some(least), Some(most)] = [at.first(), at.last()] {
-            let (known, windows, released) = (at.len(), windows.len(), RELEASED);
+        let mut places: Vec<Estimate> =
+            windows.iter().filter_map(|curve| place(&curve.rise)).collect();
+        places.sort_by(|a, b| a.value.total_cmp(&b.value));
+        let printed = places.iter().filter(|place| (from..to).contains(&place.value)).count();
+        (agree, known, all) = (agree + printed, known + places.len(), all + windows.len());
+        if let [Some(least), Some(most)] = [places.first(), places.last()] {
+            let (known, windows, released) = (places.len(), windows.len(), RELEASED);
             let numbers = numbers![known, windows, released, least = *least, most = *most, printed];
-            pieces.push(e.text(key, numbers)?);
+            pieces.push(e.sentence(key, numbers)?);
         }
     }
     let place = e.estimate(&format!("sweep.rise.{name}"))?;
@@ -239,9 +219,7 @@ fn by_protocol(e: &Evidence<'_>, name: &str, place: fn(&Rise) -> Option<Estimate
     let half_unit = e.statement.half_unit();
     let agrees = by_runs([agree, known - agree, all]);
     let check = e.check(agrees, numbers![place, transient, window, half_unit])?;
-    let note =
-        pieces.into_iter().fold(check.note.clone(), |note, piece| note.then(" ").then(piece));
-    Ok(check.note(note))
+    Ok(pieces.into_iter().fold(check, with_more))
 }
 
 /// Judges the place of the jump by the windows in which the mode surely jumps. Longer ones are in
@@ -251,31 +229,26 @@ fn mode_rise(e: &Evidence<'_>) -> Judged {
     let row = format!("jump.windows[transient={transient},window={window}]");
     let place = e.estimate(&format!("{row}.place"))?;
     let [from, to] = e.statement.interval()?;
-    let passings = passings(e)?.into_iter().filter(|(_, passing)| passing.is_jump() == Some(true));
-    let mut places: Vec<Estimate> = passings.filter_map(|(_, passing)| passing.sigma).collect();
+    let jumps = passings(e)?.into_iter().filter(|(_, passing)| passing.is_jump() == Some(true));
+    let mut places: Vec<Estimate> = jumps.filter_map(|(_, passing)| passing.sigma).collect();
     places.sort_by(|a, b| a.value.total_cmp(&b.value));
     let [least, .., most] = places[..] else { return Err(Undecided) };
     let printed = places.iter().filter(|place| (from..to).contains(&place.value)).count();
     let all = places.len();
-    let longest = passings_end(e)?;
+    let ends = passings(e)?.into_iter().map(|(protocol, _)| protocol.end());
+    let longest = ends.reduce(f64::max).ok_or(Undecided)?;
     let gaps = e.number("sweep.run.gaps")? as usize;
-    let beyond = late(e, "protocol")?.into_iter().filter(|curve| curve.protocol.end() > longest);
+    let beyond =
+        late_curves(e, "protocol")?.into_iter().filter(|curve| curve.protocol.end() > longest);
     let ranges: Vec<[f64; 2]> = beyond.filter_map(|curve| mode_half(curve, gaps)).collect();
     let apart = ranges.iter().filter(|[low, high]| to < *low || *high < from).count();
     let (ranges, released, half_unit) = (ranges.len(), RELEASED, e.statement.half_unit());
-    let found = numbers![
+    let numbers = numbers![
         place, transient, window, half_unit, all, released, least, most, printed, ranges, apart
     ];
-    let check = e.check(by_runs([printed, all - printed, all]), found)?;
+    let check = e.check(by_runs([printed, all - printed, all]), numbers)?;
     let Ok(ring) = e.estimate("jump.ring.place") else { return Ok(check) };
-    let note = check.note.clone().then(" ").then(e.text("note_ring", numbers![ring])?);
-    Ok(check.note(note))
-}
-
-/// Returns the end of the latest window in which the jump was measured.
-fn passings_end(e: &Evidence<'_>) -> Result<f64, Error> {
-    let windows = passings(e)?;
-    windows.iter().map(|(protocol, _)| protocol.end()).reduce(f64::max).ok_or(Undecided)
+    Ok(with_more(check, e.sentence("note_ring", numbers![ring])?))
 }
 
 /// Share of impacts that may be called negligible (ours).
@@ -312,12 +285,13 @@ fn sticking(e: &Evidence<'_>) -> Judged {
 }
 
 fn without_impact(e: &Evidence<'_>) -> Judged {
-    let found = e.results.of(&TWO_MASSES)?;
-    let least = found.excess.iter().map(|pair| pair[0]).reduce(f64::min).ok_or(Undecided)?;
+    let two_masses = e.results.of(&TWO_MASSES)?;
+    let least = two_masses.excess.iter().map(|pair| pair[0]).reduce(f64::min).ok_or(Undecided)?;
     let safe = e.number("two_masses.bound.force")?;
-    let agrees = found.violations == 0 && least >= 1.0 - 1e-9 && safe > 0.0;
+    let violations = two_masses.violations;
+    let agrees = violations == 0 && least >= 1.0 - 1e-9 && safe > 0.0;
     let directions = e.number("two_masses.bound.directions")?;
-    e.check(agrees, numbers![violations = found.violations, least, directions, safe])
+    e.check(agrees, numbers![violations, least, directions, safe])
 }
 
 fn walls_like_masses(e: &Evidence<'_>) -> Judged {
@@ -325,8 +299,7 @@ fn walls_like_masses(e: &Evidence<'_>) -> Judged {
     let allowed = half_unit(e)?;
     let check = e.check(difference.value.abs() <= allowed, numbers![difference, allowed])?;
     let Ok(mode) = e.estimate("jump.ring.difference") else { return Ok(check) };
-    let note = check.note.clone().then(" ").then(e.text("note_mode", numbers![mode])?);
-    Ok(check.note(note))
+    Ok(with_more(check, e.sentence("note_mode", numbers![mode])?))
 }
 
 /// The threshold of percolation sharpens with size. The paper compares without a quantity.

@@ -28,16 +28,16 @@ fn orbit(e: &Evidence<'_>, figure: usize) -> Judged {
         5 => (&segments.fig05, &segments.periodic[0]),
         _ => (&segments.fig06, &segments.periodic[1]),
     };
-    let found = periodic.first_period().names();
-    let asked: Vec<&str> = e.statement.printed.split(", ").collect();
+    let impacts = periodic.first_period().names();
+    let printed: Vec<&str> = e.statement.printed.split(", ").collect();
     let row = format!("segments.orbits[figure={figure}]");
     let [period, apart] = e.numbers(&row, ["period", "apart"])?;
     let allowed = 1e-9;
     let agrees = apart <= allowed
-        && found == asked
-        && drawn.names() == asked
-        && found.len() as f64 == e.statement.number()?;
-    e.check(agrees, numbers![orbit = found.join(", "), period, apart, allowed])
+        && impacts == printed
+        && drawn.names() == printed
+        && impacts.len() as f64 == e.statement.number()?;
+    e.check(agrees, numbers![orbit = impacts.join(", "), period, apart, allowed])
 }
 
 /// Returns how many bodies the impacts in some gaps of a chain involve, both walls being one body.
@@ -50,21 +50,22 @@ fn bodies(gaps: &BTreeSet<usize>, masses: usize) -> usize {
 fn masses_of_circuit(e: &Evidence<'_>) -> Judged {
     let segment = &e.results.of(&SEGMENTS)?.fig05;
     let gaps: BTreeSet<usize> = segment.impacts.iter().map(|impact| impact.gap).collect();
-    let all = segment.masses + 1;
-    let sets = (1 << all) - 1;
+    let all_gaps = segment.masses + 1;
+    let sets = (1 << all_gaps) - 1;
     let (mut right, mut as_predicted) = (0, true);
     for set in 1_u32..=sets {
-        let set: BTreeSet<usize> = (0..all).filter(|gap| set >> gap & 1 == 1).collect();
+        let set: BTreeSet<usize> = (0..all_gaps).filter(|gap| set >> gap & 1 == 1).collect();
         let holds = bodies(&set, segment.masses) == set.len() + 1;
         // A gap begins a run of neighbours if the one before it is not in the set.
-        let before = |gap: &&usize| !set.contains(&((**gap + all - 1) % all));
+        let before = |gap: &&usize| !set.contains(&((**gap + all_gaps - 1) % all_gaps));
         as_predicted &= holds == (set.iter().filter(before).count() == 1);
         right += u32::from(holds);
     }
-    let found = bodies(&gaps, segment.masses);
-    let printed = found as f64 == e.statement.number()?;
-    let check = e.check(printed && right == sets, numbers![found, right, sets])?;
-    Ok(check.explained_if(printed && as_predicted))
+    let involved = bodies(&gaps, segment.masses);
+    let is_as_printed = involved as f64 == e.statement.number()?;
+    let holds = is_as_printed && right == sets;
+    let check = e.check(holds, numbers![found = involved, right, sets])?;
+    Ok(check.explained_if(is_as_printed && as_predicted))
 }
 
 /// “Far below one” is at most this (ours).

@@ -31,13 +31,13 @@ fn start(e: &Evidence<'_>) -> Judged {
 
 fn ends_of_f(e: &Evidence<'_>) -> Judged {
     let n = VERTICES as f64;
-    let at = |k: f64| [0.0, 0.5, 1.0].map(|p| jump::f(VERTICES, p, k));
-    let agrees = at(0.0) == [-1.0; 3] && at(n) == [-(n + 1.0); 3];
-    e.check(agrees, numbers![start = at(0.0)[0], end = at(n)[0]])
+    let values = |k: f64| [0.0, 0.5, 1.0].map(|p| jump::f(VERTICES, p, k));
+    let agrees = values(0.0) == [-1.0; 3] && values(n) == [-(n + 1.0); 3];
+    e.check(agrees, numbers![start = values(0.0)[0], end = values(n)[0]])
 }
 
 fn through_zero(e: &Evidence<'_>) -> Judged {
-    let [all, failed] = compared(e)?;
+    let [all, failed] = compared_cases(e)?;
     let last = jump::f(VERTICES, 1.0, VERTICES as f64 - 1.0);
     let check = e.check(failed == 0, numbers![passes = all - failed, all, last])?;
     Ok(check.explained_if(failed == 1 && last < 0.0))
@@ -45,7 +45,7 @@ fn through_zero(e: &Evidence<'_>) -> Judged {
 
 /// A forward difference is zero half a step before the derivative.
 fn inflexion(e: &Evidence<'_>) -> Judged {
-    let (off, [steps, failed]) = (largest_difference(e)?, compared(e)?);
+    let (off, [steps, failed]) = (largest_difference(e)?, compared_cases(e)?);
     let columns = ["p_crit", "k_touch", "p_flat", "k_flat"];
     let [crit, touch, p, k] = e.numbers("theory.jump", columns)?;
     let (allowed, falls) = (1e-13, steps - failed);
@@ -56,8 +56,8 @@ fn inflexion(e: &Evidence<'_>) -> Judged {
 }
 
 fn extrema(e: &Evidence<'_>) -> Judged {
-    let [all, failed] = compared(e)?;
-    let [first, crit] = ["theory.first_maximum.p", "theory.jump.p_crit"].map(|at| e.number(at));
+    let [all, failed] = compared_cases(e)?;
+    let [first, crit] = ["theory.first_maximum.p", "theory.jump.p_crit"].map(|cell| e.number(cell));
     let (first, crit) = (first?, crit?);
     let check = e.check(first <= crit, numbers![first, crit, all])?;
     Ok(check.explained_if(failed == 0 && first > crit))

@@ -6,7 +6,7 @@ use crate::experiments::protocol::range;
 use crate::experiments::rise::Curve;
 use crate::experiments::starts::share_of_start;
 use crate::experiments::sweep;
-use crate::experiments::theory::comparison::{self, LARGE_SIGMA, largest_distance};
+use crate::experiments::theory::comparison::{LARGE_SIGMA, interpolate, largest_distance};
 use crate::experiments::theory::law::law;
 use crate::experiments::{LENGTHS, PROTOCOL, RESTITUTION, STARTS};
 use crate::params::VERTICES;
@@ -32,7 +32,7 @@ pub fn rules() -> Vec<Rule> {
         Rule::new("sec8_threshold_shift", threshold_shift).on(OurMeasure),
         Rule::new("sec8_mean_is_easier", mean_is_easier).on(OurMeasure),
         Rule::new("sec8_restitution_omitted", restitution_omitted).on(OurMeasure),
-        Rule::new("sec8_restitution_ensures", |e| ensured(e, |all| all.contact_phases))
+        Rule::new("sec8_restitution_ensures", |e| ensured(e, |total| total.contact_phases))
             .on(OurMeasure),
         Rule::new("sec8_restitution_multiple", |e| {
             ensured(e, |Total { near: [.., all], .. }| *all)
@@ -43,7 +43,7 @@ pub fn rules() -> Vec<Rule> {
 
 fn eq25(e: &Evidence<'_>) -> Judged {
     let check = e.rounding(e.number("theory.relation.difference")?, 1e-12);
-    Ok(check.note(e.text("note", &[])?))
+    Ok(check.note(e.sentence("note", &[])?))
 }
 
 /// Weights in proportion to p^k have a mean with the slope Var(X)/p.
@@ -76,7 +76,7 @@ fn no_impact(e: &Evidence<'_>) -> Judged {
     if shares_of_bound.len() < 3 {
         return Err(Undecided);
     }
-    let [least, most] = ends(shares_of_bound.iter().copied()).ok_or(Undecided)?;
+    let [least, most] = extremes(shares_of_bound.iter().copied()).ok_or(Undecided)?;
     let (sigmas, share) = (shares_of_bound.len(), chains / expected);
     let agrees = above == 0.0 && share >= 2.0 / 3.0;
     e.check(agrees, numbers![sigmas, share, overlaps, chains, least, most])
@@ -109,15 +109,15 @@ fn p_poor(e: &Evidence<'_>) -> Judged {
     let (mean, relation) = (column("simple")?, column("p")?);
     let inverse: Vec<(f64, f64)> = mean.iter().zip(&relation).map(|(a, b)| (a.1, b.1)).collect();
     let times = |(sigma, mean): (f64, f64)| {
-        Some(comparison::at(&inverse, mean)? / comparison::at(&relation, sigma)?)
+        Some(interpolate(&inverse, mean)? / interpolate(&relation, sigma)?)
     };
-    let there = |means: &Vec<(f64, f64)>| times((sigma, comparison::at(means, sigma)?));
+    let there = |means: &Vec<(f64, f64)>| times((sigma, interpolate(means, sigma)?));
     let means = e.results.table("sweep.rows")?.curve(&[], "sigma", "mean")?;
     let everywhere = |means: &Vec<(f64, f64)>| {
         let rows = means.iter().copied().filter(|(sigma, _)| *sigma < below);
         rows.filter_map(times).reduce(f64::min)
     };
-    let (here, windows) = (everywhere(&means).ok_or(Undecided)?, windows(e)?);
+    let (here, windows) = (everywhere(&means).ok_or(Undecided)?, means_in_windows(e)?);
     let there = windows.iter().filter_map(there).reduce(f64::min).ok_or(Undecided)?;
     let random = ensemble(e.results.of(&LENGTHS)?, "random")?.curves.iter().map(means_of).collect();
     let [[poor_rest, rest], [poor_random, random]] = [windows, random].map(|all: Vec<_>| {
@@ -139,8 +139,8 @@ fn means_of(curve: &Curve) -> Vec<(f64, f64)> {
 
 /// Returns the simulated means against σ in each window of the map of protocols that begins late
 /// enough after the release.
-pub(super) fn windows(e: &Evidence<'_>) -> Result<Vec<Vec<(f64, f64)>>, Error> {
-    Ok(late(e, "protocol")?.into_iter().map(means_of).collect())
+pub(super) fn means_in_windows(e: &Evidence<'_>) -> Result<Vec<Vec<(f64, f64)>>, Error> {
+    Ok(late_curves(e, "protocol")?.into_iter().map(means_of).collect())
 }
 
 fn large_sigma(e: &Evidence<'_>) -> Judged {
@@ -152,16 +152,16 @@ fn large_sigma(e: &Evidence<'_>) -> Judged {
     let means = e.results.table("sweep.rows")?.curve(&[], "sigma", "mean")?;
     let all = VERTICES as f64;
     let constant = largest_distance(&means, &[(0.0, all), (1.0, all)]).ok_or(Undecided)?[0];
-    let windows = windows(e)?;
+    let windows = means_in_windows(e)?;
     let distances = windows.iter().filter_map(|means| largest_distance(means, &curve));
     let far = distances.map(|[distance, ..]| distance).fold(distance, f64::max);
     let printed = e.published.statement("sec8_p_small")?.number()?;
     let [mean_there, theory_there] =
-        [&means, &curve].map(|curve| comparison::at(curve, printed).ok_or(Undecided));
+        [&means, &curve].map(|curve| interpolate(curve, printed).ok_or(Undecided));
     let missing = mean_there? - theory_there?;
     // Without a free part only the forced amplitude counts: p = exp(−d²/4σ²) at this Ω.
     let is_far = |(sigma, mean): (f64, f64)| {
-        let theory = comparison::at(&curve, sigma)?;
+        let theory = interpolate(&curve, sigma)?;
         (sigma < LARGE_SIGMA && (mean - theory).abs() > limit).then_some(sigma)
     };
     let down = means.iter().copied().filter_map(is_far).reduce(f64::max).ok_or(Undecided)?;
@@ -179,7 +179,7 @@ fn threshold_shift(e: &Evidence<'_>) -> Judged {
     let half = e.estimate("sweep.rise.half_height")?;
     let theory = e.number("theory.relation.sigma_half")?;
     let near = |half: &Estimate| (theory / half.value - 1.0).abs() <= 0.2;
-    let windows = late(e, "protocol")?;
+    let windows = late_curves(e, "protocol")?;
     let halves: Vec<Estimate> = windows.iter().filter_map(|curve| curve.rise.half_height).collect();
     let (agree, all) = (halves.iter().filter(|half| near(half)).count(), halves.len());
     let released = RELEASED;
@@ -218,7 +218,7 @@ fn restitution_omitted(e: &Evidence<'_>) -> Judged {
         Some(share_of_start(rest, random, theory).value)
     };
     let shares = ensemble(e.results.of(&LENGTHS)?, "random")?.curves.iter().filter_map(share_after);
-    let [least, most] = ends(shares).ok_or(Undecided)?;
+    let [least, most] = extremes(shares).ok_or(Undecided)?;
     let by_all = e.estimate("starts.against_theory.share_of_all")?;
     let (lowest, highest) = (*lowest, *highest);
     e.check(None, numbers![share, by_all, least, most, lowest, highest, moved])
@@ -229,9 +229,9 @@ fn restitution_omitted(e: &Evidence<'_>) -> Judged {
 fn ensured(e: &Evidence<'_>, pick: fn(&Total) -> u64) -> Judged {
     let restitutions = e.results.table("restitution.curves")?.distinct("r")?;
     let (r, lowest) = (e.published.parameter("restitution")?, restitutions[0]);
-    let found = e.results.of(&RESTITUTION)?;
-    let chains = |r: f64| found.iter().find(|chains| chains.ensemble.chain.restitution == r);
-    // Of all impacts at r and σ; none where these were not run.
+    let counted = e.results.of(&RESTITUTION)?;
+    let chains = |r: f64| counted.iter().find(|chains| chains.ensemble.chain.restitution == r);
+    // Of all impacts at r and σ, or `None` where these were not run.
     let share = |r, sigma| {
         let total = &chains(r)?.runs.iter().find(|row| row.sigma == sigma)?.total;
         Some(pick(total) as f64 / total.impacts.max(1) as f64)
@@ -247,14 +247,13 @@ fn ensured(e: &Evidence<'_>, pick: fn(&Total) -> u64) -> Judged {
     let decided: Vec<f64> = shares.iter().filter(|row| row.3).map(|row| row.0).collect();
     let is_rare = |r: &&f64| shares.iter().all(|row| share(**r, row.0) <= Some(NEGLIGIBLE));
     let enough = *restitutions.iter().find(is_rare).ok_or(Undecided)?;
-    let (at, all, negligible) = (decided.len(), shares.len(), NEGLIGIBLE);
-    let check = e.check(
-        by_runs([at, all - at, all]),
-        numbers![sigma, ours, r, without, lowest, negligible, all, first, decided = at],
+    let (only_there, all, negligible) = (decided.len(), shares.len(), NEGLIGIBLE);
+    let mut check = e.check(
+        by_runs([only_there, all - only_there, all]),
+        numbers![sigma, ours, r, without, lowest, negligible, all, first, decided = only_there],
     )?;
-    let mut note = check.note.clone();
-    if let Some(from) = decided.first().filter(|_| at < all) {
-        note = note.then(" ").then(e.text("note_some", numbers![from = *from])?);
+    if let Some(from) = decided.first().filter(|_| only_there < all) {
+        check = with_more(check, e.sentence("note_some", numbers![from = *from])?);
     }
-    Ok(check.note(note.then(" ").then(e.text("note_enough", numbers![enough, negligible])?)))
+    Ok(with_more(check, e.sentence("note_enough", numbers![enough, negligible])?))
 }

@@ -1,6 +1,6 @@
 //! Judges Sections 9 and 10, circuits that repeat impacts and the conclusions.
 
-use super::sec8::{VISIBLE, windows};
+use super::sec8::{VISIBLE, means_in_windows};
 use super::shared::*;
 use crate::experiments::SEGMENTS;
 use crate::experiments::theory::comparison::{self, LARGE_SIGMA};
@@ -42,19 +42,20 @@ pub fn rules() -> Vec<Rule> {
 }
 
 fn fig6_repeats(e: &Evidence<'_>) -> Judged {
-    let found = e.results.of(&SEGMENTS)?.fig06.repeats();
-    let each: Vec<String> = found.iter().map(|(name, times)| format!("{name}: {times}")).collect();
-    let times: Vec<String> = found.iter().map(|(_, times)| times.to_string()).collect();
+    let repeated = e.results.of(&SEGMENTS)?.fig06.repeats();
+    let each: Vec<String> =
+        repeated.iter().map(|(name, times)| format!("{name}: {times}")).collect();
+    let times: Vec<String> = repeated.iter().map(|(_, times)| times.to_string()).collect();
     let reads =
-        e.statement.printed == format!("{} impacts; {} times", found.len(), times.join(", "));
-    let first = found.first().is_some_and(|(name, _)| name == "L-1");
-    let agrees = found.len() as f64 == e.statement.number()? && reads && first;
+        e.statement.printed == format!("{} impacts; {} times", repeated.len(), times.join(", "));
+    let first = repeated.first().is_some_and(|(name, _)| name == "L-1");
+    let agrees = repeated.len() as f64 == e.statement.number()? && reads && first;
     e.check(agrees, numbers![repeats = each.join(", ")])
 }
 
 fn eq30(e: &Evidence<'_>) -> Judged {
     let [printed, counted] = e.numbers("theory.higher", ["eq30_printed", "eq30_counted"])?;
-    let [all, failed] = compared(e)?;
+    let [all, failed] = compared_cases(e)?;
     let check = e.check(printed == counted, numbers![printed, counted, all])?;
     Ok(check.explained_if(failed == 0 && all > 0))
 }
@@ -78,10 +79,10 @@ fn class_range(e: &Evidence<'_>) -> Judged {
 
 /// Counts the cases of all k, and those from which on each formula is in its range.
 fn eq38(e: &Evidence<'_>) -> Judged {
-    let [all, wrong] = compared(e)?;
+    let [all, wrong] = compared_cases(e)?;
     let row = "theory.cases[statement=sec9_eq38_in_range]";
     let [in_range, failed] = e.numbers(row, ["compared", "failed"])?.map(|count| count as usize);
-    let why = e.text("note", numbers![in_range])?;
+    let why = e.sentence("note", numbers![in_range])?;
     Ok(e.all_cases(all, wrong).explained(why, failed == 0 && in_range > 0))
 }
 
@@ -199,7 +200,7 @@ fn improves(e: &Evidence<'_>) -> Judged {
     let table = e.results.table("theory.curve")?;
     let column = |name| table.curve(&[], "sigma", name);
     let curves = [column("simple")?, column("higher")?];
-    let windows = windows(e)?;
+    let windows = means_in_windows(e)?;
     let mut better = 0;
     for means in &windows {
         let [simple, higher] = curves.each_ref().map(|curve| comparison::distance(means, curve));

@@ -1,37 +1,43 @@
 //! Makes the rules that several sections have in common, and gives the others what they share.
 
 use crate::experiments::PROTOCOL;
-use crate::experiments::ensembles::{Counted, named};
+use crate::experiments::ensembles::{Counted, find_ensemble};
 use crate::experiments::rise::Curve;
 pub use literate::claims::Basis::{FiniteCases, OurMeasure, PrintedDigit, Rounding};
 pub use literate::claims::Error::{self, Undecided};
-pub use literate::claims::{Evidence, Judged, Kind, Rule};
+pub use literate::claims::{Check, Evidence, Judged, Kind, Rule, Text};
 pub use literate::numbers;
 
 /// Finds the chains of this name among those of an experiment.
-pub fn ensemble<'a>(found: &'a [Counted], name: &str) -> Result<&'a Counted, Error> {
-    named(found, name).ok_or(Undecided)
+pub fn ensemble<'a>(counted: &'a [Counted], name: &str) -> Result<&'a Counted, Error> {
+    find_ensemble(counted, name).ok_or(Undecided)
 }
 
 /// A shorter transient counts the first impacts of a chain that has just been released (ours).
 pub const RELEASED: f64 = 100.0;
 
 /// Returns the curves of a map of protocols whose window begins late enough after the release.
-pub fn late<'a>(e: &Evidence<'a>, map: &str) -> Result<Vec<&'a Curve>, Error> {
+pub fn late_curves<'a>(e: &Evidence<'a>, map: &str) -> Result<Vec<&'a Curve>, Error> {
     let curves = ensemble(e.results.of(&PROTOCOL)?, map)?.curves.iter();
     Ok(curves.filter(|curve| curve.protocol.transient >= RELEASED).collect())
 }
 
 /// Returns the least and the largest of some numbers.
-pub fn ends(numbers: impl Iterator<Item = f64> + Clone) -> Option<[f64; 2]> {
+pub fn extremes(numbers: impl Iterator<Item = f64> + Clone) -> Option<[f64; 2]> {
     Some([numbers.clone().reduce(f64::min)?, numbers.reduce(f64::max)?])
 }
 
-/// Judges by the protocols or values of σ that were run: how many surely agree with what was
-/// printed, how many surely do not, and how many there are. It is judged where these are all; else
-/// what was used decides, which is not printed, or the sample is too small.
+/// Judges by the protocols or values of σ that were run: of so many in all, how many surely agree
+/// with what was printed and how many surely differ. `None` if they do not all agree or all differ:
+/// then the protocol decides, which is not printed, or the sample is too small.
 pub fn by_runs([agree, differ, all]: [usize; 3]) -> Option<bool> {
     (all > 0 && [agree, differ].contains(&all)).then_some(agree == all)
+}
+
+/// Adds a sentence to the note of a check.
+pub fn with_more(check: Check, sentence: Text) -> Check {
+    let note = check.note.clone().then(" ").then(sentence);
+    check.note(note)
 }
 
 /// Returns half a unit of the last digit in which the paper prints the threshold.
@@ -40,7 +46,7 @@ pub fn half_unit(e: &Evidence<'_>) -> Result<f64, Error> {
 }
 
 /// Counts the cases in which a statement about the theory was compared, and those where it fails.
-pub fn compared(e: &Evidence<'_>) -> Result<[usize; 2], Error> {
+pub fn compared_cases(e: &Evidence<'_>) -> Result<[usize; 2], Error> {
     let row = format!("theory.cases[statement={}]", e.statement.id);
     Ok(e.numbers(&row, ["compared", "failed"])?.map(|count| count as usize))
 }
@@ -60,8 +66,8 @@ pub fn defined(id: &'static str) -> Rule {
 #[track_caller]
 pub fn cases(id: &'static str) -> Rule {
     Rule::new(id, |e| {
-        let [all, failed] = compared(e)?;
-        Ok(e.all_cases(all, failed).note(e.text("note", &[])?))
+        let [all, failed] = compared_cases(e)?;
+        Ok(e.all_cases(all, failed).note(e.sentence("note", &[])?))
     })
     .on(FiniteCases)
 }
@@ -70,7 +76,7 @@ pub fn cases(id: &'static str) -> Rule {
 #[track_caller]
 pub fn equality(id: &'static str, allowed: f64) -> Rule {
     let judge = move |e: &Evidence<'_>| {
-        Ok(e.rounding(largest_difference(e)?, allowed).note(e.text("note", &[])?))
+        Ok(e.rounding(largest_difference(e)?, allowed).note(e.sentence("note", &[])?))
     };
     Rule::new(id, judge).on(FiniteCases)
 }

@@ -1,6 +1,6 @@
 //! Runs the verb `eval`: computes one quantity of the theory and prints it as JSON.
 
-use super::range::within;
+use super::range::number;
 use clap::builder::PossibleValuesParser;
 use impact_circuits::distribution::{Law, SampleSpace};
 use impact_circuits::impact_probability::ImpactProbability;
@@ -44,7 +44,7 @@ struct Inputs {
     #[serde(skip_serializing_if = "Option::is_none")]
     vertices: Option<usize>,
     /// Probability p of an edge; 0 means the limit p → 0+.
-    #[arg(long, value_name = "P", value_parser = within(0.0, 1.0), allow_hyphen_values = true)]
+    #[arg(long, value_name = "P", value_parser = number(0.0, 1.0), allow_hyphen_values = true)]
     #[serde(skip_serializing_if = "Option::is_none")]
     p: Option<f64>,
     /// Number of different impacts k, 1 ≤ k ≤ N.
@@ -52,20 +52,20 @@ struct Inputs {
     #[serde(skip_serializing_if = "Option::is_none")]
     k: Option<usize>,
     /// Standard deviation σ of the forcing, above 0.
-    #[arg(long, value_name = "S", value_parser = within(0.0, 1e6), allow_hyphen_values = true)]
+    #[arg(long, value_name = "S", value_parser = number(0.0, 1e6), allow_hyphen_values = true)]
     #[serde(skip_serializing_if = "Option::is_none")]
     sigma: Option<f64>,
     /// Natural frequency ω [default: 1].
-    #[arg(long, value_name = "w", value_parser = within(1e-3, 1e3), allow_hyphen_values = true)]
+    #[arg(long, value_name = "w", value_parser = number(1e-3, 1e3), allow_hyphen_values = true)]
     #[serde(skip_serializing_if = "Option::is_none")]
     omega: Option<f64>,
     /// Forcing frequency Ω, different from ω [default: √2; the double nearest to √2 is read
     /// as √2 itself].
-    #[arg(long, value_name = "W", value_parser = within(1e-3, 1e3), allow_hyphen_values = true)]
+    #[arg(long, value_name = "W", value_parser = number(1e-3, 1e3), allow_hyphen_values = true)]
     #[serde(skip_serializing_if = "Option::is_none")]
     forcing_frequency: Option<f64>,
     /// Spacing d of the masses at rest [default: 1].
-    #[arg(long, value_name = "d", value_parser = within(1e-6, 1e6), allow_hyphen_values = true)]
+    #[arg(long, value_name = "d", value_parser = number(1e-6, 1e6), allow_hyphen_values = true)]
     #[serde(skip_serializing_if = "Option::is_none")]
     spacing: Option<f64>,
 }
@@ -96,6 +96,7 @@ const QUANTITIES: [[&str; 4]; 14] = [
     ["higher-probability", "Eq. (38)", "N p k", "probability in the five classes"],
 ];
 
+/// Computes a quantity; the inputs that it does not need are ignored.
 fn evaluate(name: &str, inputs: &Inputs) -> Result<Value, Error> {
     let (name, space) = match name.strip_prefix("higher-") {
         Some(name) => (name, SampleSpace::FiveClasses),
@@ -126,7 +127,7 @@ fn evaluate(name: &str, inputs: &Inputs) -> Result<Value, Error> {
 impl Inputs {
     /// Fills in defaults; refuses options that the quantity does not use, and a lack of those that
     /// it needs.
-    fn of(mut self, name: &str, needed: &str) -> Result<Inputs, Failure> {
+    fn complete(mut self, name: &str, needed: &str) -> Result<Inputs, Failure> {
         let needs = |need: &str| needed.split(' ').any(|needed| needed == need);
         let given = serde_json::to_value(&self).unwrap_or_default();
         let unused = |option: &&String| match option.as_str() {
@@ -136,8 +137,8 @@ impl Inputs {
         };
         if let Some(option) = given.as_object().and_then(|given| given.keys().find(unused)) {
             let option = option.replace('_', "-");
-            let what = format!("--{option}: {name} does not depend on it; leave it out");
-            return Err(Failure::input(what));
+            let message = format!("--{option}: {name} does not depend on it; leave it out");
+            return Err(Failure::input(message));
         }
         let missing = |need: &&str| !["N", "oscillator"].contains(need) && given[*need].is_null();
         if let Some(need) = needed.split(' ').find(missing) {
@@ -158,17 +159,18 @@ impl Inputs {
 }
 
 pub fn run(args: Args) -> Result<(), Failure> {
-    let asked = |[name, ..]: &&[&str; 4]| args.quantity.as_deref() == Some(name);
-    let Some([quantity, _, needs, _]) = QUANTITIES.iter().find(asked).filter(|_| !args.list) else {
+    let is_asked = |[name, ..]: &&[&str; 4]| args.quantity.as_deref() == Some(name);
+    let Some([quantity, _, needs, _]) = QUANTITIES.iter().find(is_asked).filter(|_| !args.list)
+    else {
         return print(&list());
     };
-    let inputs = args.inputs.of(quantity, needs)?;
+    let inputs = args.inputs.complete(quantity, needs)?;
     let value = evaluate(quantity, &inputs).map_err(|error| {
         // --masses gives N too.
-        let what = error.to_string();
-        match (inputs.masses, what.strip_prefix("vertices:")) {
+        let message = error.to_string();
+        match (inputs.masses, message.strip_prefix("vertices:")) {
             (Some(_), Some(rest)) => Failure::input(format!("--masses (N = n + 1):{rest}")),
-            _ => Failure::input(format!("--{what}")),
+            _ => Failure::input(format!("--{message}")),
         }
     })?;
     if *quantity == "p-crit" && value.as_f64() > Some(1.0) {
@@ -179,7 +181,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     print(&(json + "\n"))
 }
 
-/// One line for each quantity: name, equation, inputs, meaning.
+/// Lists the quantities, a line for each: name, equation, inputs, meaning.
 fn list() -> String {
     let option = |need: &str| match need {
         "N" => "[N]".into(),

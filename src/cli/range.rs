@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 /// Returns a parser of numbers from `low` to `high`, both included.
-pub fn within(
+pub fn number(
     low: f64,
     high: f64,
 ) -> impl Fn(&str) -> Result<f64, String> + Clone + Send + Sync + 'static {
@@ -25,22 +25,22 @@ pub type Values = Arc<[f64]>;
 ///
 /// A range A..B:STEP is A + i·STEP, rounded to the decimals of A and STEP, so that 0.1..0.2:0.02
 /// holds the same double 0.12 as a list does; B belongs to it when it is hit within STEP/1000.
-pub fn values(
+pub fn numbers(
     low: f64,
     high: f64,
 ) -> impl Fn(&str) -> Result<Values, String> + Clone + Send + Sync + 'static {
-    below(MOST_VALUES, low, high)
+    fewer_numbers(MOST_VALUES, low, high)
 }
 
-/// Returns such a parser of ranges with fewer than `most` values.
-fn below(
+/// Returns a parser like that of [`numbers`], for ranges of fewer than `most` numbers.
+fn fewer_numbers(
     most: f64,
     low: f64,
     high: f64,
 ) -> impl Fn(&str) -> Result<Values, String> + Clone + Send + Sync + 'static {
     move |text| {
         let number =
-            |text: &str| within(low, high)(text).map_err(|what| format!("{text:?}: {what}"));
+            |text: &str| number(low, high)(text).map_err(|error| format!("{text:?}: {error}"));
         let Some((from, rest)) = text.split_once("..") else {
             return text.split(',').map(number).collect();
         };
@@ -79,19 +79,19 @@ pub fn times(
         if text == "period" {
             return Ok(Times::Period);
         }
-        let times = below(1e15, 0.0, latest)(text)?;
-        let rises = times.is_sorted();
-        rises.then_some(Times::Values(times)).ok_or("the times fall; give rising ones".into())
+        let times = fewer_numbers(1e15, 0.0, latest)(text)?;
+        let rise = times.is_sorted();
+        rise.then_some(Times::Values(times)).ok_or("the times fall; give rising ones".into())
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::values;
+    use super::numbers;
 
     #[test]
     fn lists_and_ranges() {
-        let sigmas = values(0.0, 1e6);
+        let sigmas = numbers(0.0, 1e6);
         let read = |text: &str| sigmas(text).unwrap().to_vec();
         assert_eq!(read("0.1,0.12"), [0.1, 0.12]);
         assert_eq!(read(" 0.3 "), [0.3]);

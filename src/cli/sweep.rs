@@ -1,6 +1,6 @@
 //! Runs the verb `sweep`: an ensemble, with a row for each σ.
 
-use super::range::{Values, values, within};
+use super::range::{Values, number, numbers};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use impact_chain::counts::{NEAR_DECADES, SLOW_DECADES};
 use impact_chain::rise::{Column, Mean, RisePoint};
@@ -28,13 +28,13 @@ use std::ops::Range;
 /// early, rows with more than a tenth of the starts rejected, or with more than one in a hundred
 /// impacts at the instant of another, and grazes that rounding could not decide.
 ///
-/// Realisation i is Scenario::draw of the crate impact-chain with NormalPairs::new("sweep", S, i);
+/// Realisation i is Scenario::draw of impact-chain with NormalPairs::new("sweep", Seed(S), i);
 /// its to_json can be read by trace. The chain, its equation and its units: trace --help.
 #[derive(clap::Args)]
 #[command(verbatim_doc_comment, after_help = help())]
 pub struct Args {
     /// Standard deviations: a list 0.1,0.12 or a range A..B:STEP (B included when hit).
-    #[arg(long, value_name = "A..B:STEP|LIST", allow_hyphen_values = true, value_parser = values(0.0, 1e6))]
+    #[arg(long, value_name = "A..B:STEP|LIST", allow_hyphen_values = true, value_parser = numbers(0.0, 1e6))]
     sigma: Values,
     /// Number of masses n.
     #[arg(long, value_name = "n", default_value_t = 100, value_parser = at_least_one)]
@@ -43,22 +43,22 @@ pub struct Args {
     #[arg(long, value_name = "R|A..B", default_value = "1000", value_parser = realisations)]
     realisations: Range<u64>,
     /// Transients T that are dropped, in units of time: a list or a range.
-    #[arg(long, value_name = "T", default_value = "500", value_parser = values(0.0, LATEST), allow_hyphen_values = true)]
+    #[arg(long, value_name = "T", default_value = "500", value_parser = numbers(0.0, LATEST), allow_hyphen_values = true)]
     transient: Values,
     /// Windows W in which impacts are counted, in units of time: a list or a range.
-    #[arg(long, value_name = "W", default_value = "200", value_parser = values(1e-3, LATEST), allow_hyphen_values = true)]
+    #[arg(long, value_name = "W", default_value = "200", value_parser = numbers(1e-3, LATEST), allow_hyphen_values = true)]
     window: Values,
     /// Natural frequency ω.
-    #[arg(long, value_name = "w", default_value = "1", value_parser = within(1e-3, 1e3), allow_hyphen_values = true)]
+    #[arg(long, value_name = "w", default_value = "1", value_parser = number(1e-3, 1e3), allow_hyphen_values = true)]
     natural_frequency: f64,
     /// Forcing frequency Ω, different from ω [default: √2].
-    #[arg(long, value_name = "Omega", value_parser = within(1e-3, 1e3), allow_hyphen_values = true)]
+    #[arg(long, value_name = "Omega", value_parser = number(1e-3, 1e3), allow_hyphen_values = true)]
     forcing_frequency: Option<f64>,
     /// Distance d between neighbouring places of the masses.
-    #[arg(long, value_name = "d", default_value = "1", value_parser = within(1e-6, 1e6), allow_hyphen_values = true)]
+    #[arg(long, value_name = "d", default_value = "1", value_parser = number(1e-6, 1e6), allow_hyphen_values = true)]
     spacing: f64,
     /// Coefficient of restitution r.
-    #[arg(long, value_name = "r", default_value = "0.8", value_parser = within(0.0, 1.0), allow_hyphen_values = true)]
+    #[arg(long, value_name = "r", default_value = "0.8", value_parser = number(0.0, 1.0), allow_hyphen_values = true)]
     restitution: f64,
     /// How a realisation starts: at rest, without free part, or with a random one.
     #[arg(long, value_name = "START", default_value = "rest", value_parser = PossibleValuesParser::new(["rest", "zero", "random"]).try_map(|name| from_value::<Start>(name.into())))]
@@ -86,29 +86,73 @@ fn realisations(text: &str) -> Result<Range<u64>, String> {
     some.ok_or_else(|| "give a whole number, 1 or more, or a range A..B".into())
 }
 
-const COLUMNS: [(&str, &str); 18] = [
-    ("sigma", "standard deviation of the amplitudes"),
-    ("realisations", "chains drawn"),
-    ("kept", "those with an impact in the window"),
-    ("rejected", "those whose start overlaps"),
-    ("mean_distinct", "different gaps with an impact in the window, mean of the kept"),
-    ("standard_error", "of this mean"),
-    ("mode_distinct", "most frequent number among the kept, the lowest if several"),
-    ("impacts_per_time", "impacts in the window over W, mean of the kept"),
-    ("impacts", "impacts in whole runs, including transients"),
-    ("near_simultaneous", "those within 1e-9 of one in an adjacent gap, whatever w is"),
-    ("slow", "those with a closing speed below 1e-8, whatever d and w are"),
-    ("contact_phases", "times that a gap came to rest in contact"),
-    ("mean_all", "different gaps with an impact, mean of all that ran"),
-    ("standard_error_all", "of this mean"),
-    ("simultaneous", "impacts at exactly the instant of one in an adjacent gap"),
-    ("undecided", "grazes that rounding could not decide, taken for misses"),
-    ("transient", "T"),
-    ("window", "W"),
+/// The realisations at one σ in one window.
+struct Row<'a> {
+    ensemble: &'a Ensemble,
+    counts: &'a Counts,
+    point: RisePoint,
+    protocol: Protocol,
+}
+
+/// Writes the cell of a row; a missing number is an empty cell.
+type Cell = fn(&Row) -> String;
+
+/// The columns: name, meaning and cells.
+const COLUMNS: [(&str, &str, Cell); 18] = [
+    ("sigma", "standard deviation of the amplitudes", |row| shortest(row.point.sigma)),
+    ("realisations", "chains drawn", |row| row.ensemble.realisations.to_string()),
+    ("kept", "those with an impact in the window", |row| row.point.kept.to_string()),
+    ("rejected", "those whose start overlaps", |row| row.counts.rejected.to_string()),
+    ("mean_distinct", "different gaps with an impact in the window, mean of the kept", |row| {
+        value(row.point.mean)
+    }),
+    ("standard_error", "of this mean", |row| error(row.point.mean)),
+    ("mode_distinct", "most frequent number among the kept, the lowest if several", |row| {
+        row.point.mode.map_or_else(String::new, |mode| mode.to_string())
+    }),
+    ("impacts_per_time", "impacts in the window over W, mean of the kept", |row| {
+        real(row.point.impacts.map(|mean| mean.value / row.protocol.window))
+    }),
+    ("impacts", "impacts in whole runs, including transients", |row| {
+        row.counts.total.impacts.to_string()
+    }),
+    ("near_simultaneous", "those within 1e-9 of one in an adjacent gap, whatever w is", |row| {
+        row.counts.total.near[NEAR_DECADES.len() - 1].to_string()
+    }),
+    ("slow", "those with a closing speed below 1e-8, whatever d and w are", |row| {
+        row.counts.total.slow[SLOW_DECADES.len() - 1].to_string()
+    }),
+    ("contact_phases", "times that a gap came to rest in contact", |row| {
+        row.counts.total.contact_phases.to_string()
+    }),
+    ("mean_all", "different gaps with an impact, mean of all that ran", |row| {
+        value(row.point.mean_all)
+    }),
+    ("standard_error_all", "of this mean", |row| error(row.point.mean_all)),
+    ("simultaneous", "impacts at exactly the instant of one in an adjacent gap", |row| {
+        row.counts.total.simultaneous.to_string()
+    }),
+    ("undecided", "grazes that rounding could not decide, taken for misses", |row| {
+        row.counts.total.undecided.to_string()
+    }),
+    ("transient", "T", |row| shortest(row.protocol.transient)),
+    ("window", "W", |row| shortest(row.protocol.window)),
 ];
 
+fn real(number: Option<f64>) -> String {
+    number.map_or_else(String::new, shortest)
+}
+
+fn value(mean: Option<Mean>) -> String {
+    real(mean.map(|mean| mean.value))
+}
+
+fn error(mean: Option<Mean>) -> String {
+    real(mean.and_then(|mean| mean.error))
+}
+
 fn help() -> String {
-    let lines = COLUMNS.map(|(name, meaning)| format!("  {name:<19} {meaning}\n"));
+    let lines = COLUMNS.map(|(name, meaning, _)| format!("  {name:<19} {meaning}\n"));
     format!("Columns:\n{}", lines.concat())
 }
 
@@ -123,9 +167,9 @@ pub fn run(args: Args) -> Result<(), Failure> {
         start: args.initial,
     };
     if chain.forcing_frequency == chain.natural_frequency {
-        let what =
+        let message =
             "--forcing-frequency: it equals the natural frequency (resonance); choose another";
-        return Err(Failure::input(what));
+        return Err(Failure::input(message));
     }
     let mut protocols = Vec::new();
     for &transient in &*args.transient {
@@ -135,8 +179,9 @@ pub fn run(args: Args) -> Result<(), Failure> {
     }
     let end = protocols.iter().map(Protocol::end).fold(0.0, f64::max);
     if end > LATEST {
-        let what = format!("--transient, --window: they end after {LATEST:?}; give shorter ones");
-        return Err(Failure::input(what));
+        let message =
+            format!("--transient, --window: they end after {LATEST:?}; give shorter ones");
+        return Err(Failure::input(message));
     }
     let number = usize::try_from(args.realisations.end - args.realisations.start);
     let realisations = number.unwrap_or(usize::MAX);
@@ -153,17 +198,14 @@ pub fn run(args: Args) -> Result<(), Failure> {
     };
     // Each thread has a chain, 300 bytes a mass and some for its gaps; realisations leave counts.
     let threads = args.threads.number() as u128;
-    fits(threads * 360 * args.masses as u128 + (1 << 10) * realisations as u128)?;
-    if end > LATEST {
-        let what = "--transient, --window: they end after t = 1e12; give shorter ones";
-        return Err(Failure::input(what));
-    }
+    check_memory(threads * 360 * args.masses as u128 + (1 << 10) * realisations as u128)?;
     let progress = Progress::on_stderr();
     let rows = args.threads.run(|| rows(ensemble, &progress))?;
-    let header = COLUMNS.map(|(name, _)| name.to_string()).into();
-    print(&DataFile { name: "sweep.csv".into(), header, rows }.csv())
+    let header = COLUMNS.map(|(name, ..)| name.to_string()).into();
+    print(&DataFile { name: "sweep.csv".into(), header, rows }.to_csv())
 }
 
+/// Runs the ensemble, and returns the cells of a row for each σ and window.
 fn rows(ensemble: Ensemble, progress: &Progress) -> Result<Vec<Vec<String>>, Failure> {
     let cutting: Cutting<Vec<Ensemble>, Counts, Vec<Counts>> = Cutting {
         rows: CUTTING.rows,
@@ -172,13 +214,16 @@ fn rows(ensemble: Ensemble, progress: &Progress) -> Result<Vec<Vec<String>>, Fai
             Ok(parts.into_iter().map(|parts| parts.into_iter().collect()).collect())
         },
     };
-    let all = vec![ensemble];
-    let counts = cutting.run(&all, "sweep", progress)?;
-    let mut rows = Vec::new();
-    for (&sigma, counts) in all[0].sigmas.iter().zip(&counts) {
-        warn_of_doubts(&all[0], sigma, counts);
-        for window in 0..all[0].protocols.len() {
-            rows.push(row(&all[0], sigma, counts, window));
+    let ensembles = vec![ensemble];
+    let counts = cutting.run(&ensembles, "sweep", progress)?;
+    let (ensemble, mut rows) = (&ensembles[0], Vec::new());
+    let largest = ensemble.chain.gaps();
+    for (&sigma, counts) in ensemble.sigmas.iter().zip(&counts) {
+        warn_of_doubts(ensemble, sigma, counts);
+        for (window, &protocol) in ensemble.protocols.iter().enumerate() {
+            let point = RisePoint::new(sigma, counts, Column { window, largest });
+            let row = Row { ensemble, counts, point, protocol };
+            rows.push(COLUMNS.map(|(.., cell)| cell(&row)).into());
         }
     }
     Ok(rows)
@@ -186,14 +231,14 @@ fn rows(ensemble: Ensemble, progress: &Progress) -> Result<Vec<Vec<String>>, Fai
 
 /// Names what makes the rows of a σ doubtful.
 fn warn_of_doubts(ensemble: &Ensemble, sigma: f64, counts: &Counts) {
-    let doubt = |what: String| warn(&format!("sigma {sigma:?}: {what}"));
-    let (all, rejected, failed) = (ensemble.realisations, counts.rejected, counts.failed);
+    let doubt = |message: String| warn(&format!("sigma {sigma:?}: {message}"));
+    let (drawn, rejected, failed) = (ensemble.realisations, counts.rejected, counts.failed);
     if failed > 0 {
-        doubt(format!("{failed} of {all} realisations ended early and are in no mean"));
+        doubt(format!("{failed} of {drawn} realisations ended early and are in no mean"));
     }
-    if !ensemble.compares(sigma, rejected) {
+    if !ensemble.is_comparable(sigma, rejected) {
         doubt(format!(
-            "{rejected} of {all} starts overlapped and were rejected; the row is not comparable with others"
+            "{rejected} of {drawn} starts overlapped and were rejected; the row is not comparable with others"
         ));
     }
     let total = &counts.total;
@@ -213,40 +258,11 @@ fn warn_of_doubts(ensemble: &Ensemble, sigma: f64, counts: &Counts) {
     }
 }
 
-/// Returns the cells of a row; a missing number is an empty cell.
-fn row(ensemble: &Ensemble, sigma: f64, counts: &Counts, window: usize) -> Vec<String> {
-    let row = RisePoint::new(sigma, counts, Column { window, largest: ensemble.chain.gaps() });
-    let (protocol, total) = (ensemble.protocols[window], &counts.total);
-    let real = |value: Option<f64>| value.map_or_else(String::new, shortest);
-    let value = |mean: Option<Mean>| real(mean.map(|mean| mean.value));
-    let error = |mean: Option<Mean>| real(mean.and_then(|mean| mean.error));
-    vec![
-        shortest(sigma),
-        ensemble.realisations.to_string(),
-        row.kept.to_string(),
-        counts.rejected.to_string(),
-        value(row.mean),
-        error(row.mean),
-        row.mode.map_or_else(String::new, |mode| mode.to_string()),
-        real(row.impacts.map(|mean| mean.value / protocol.window)),
-        total.impacts.to_string(),
-        total.near[NEAR_DECADES.len() - 1].to_string(),
-        total.slow[SLOW_DECADES.len() - 1].to_string(),
-        total.contact_phases.to_string(),
-        value(row.mean_all),
-        error(row.mean_all),
-        total.simultaneous.to_string(),
-        total.undecided.to_string(),
-        shortest(protocol.transient),
-        shortest(protocol.window),
-    ]
-}
-
 /// Returns the bytes of memory that there are, of the machine or of the container where it has
 /// less. Linux reports them, elsewhere 4 GiB are assumed.
 fn available(read: impl Fn(&str) -> Option<String>) -> u128 {
-    let text = read("/proc/meminfo").unwrap_or_default();
-    let free = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"));
+    let memory = read("/proc/meminfo").unwrap_or_default();
+    let free = memory.lines().find_map(|line| line.strip_prefix("MemAvailable:"));
     let kib = free.and_then(|line| line.split_whitespace().next()?.parse::<u128>().ok());
     // A container sees its own group as the top, of either version.
     let limits = ["/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"];
@@ -255,7 +271,7 @@ fn available(read: impl Fn(&str) -> Option<String>) -> u128 {
 }
 
 /// Refuses what needs more memory than there is, in bytes.
-fn fits(needed: u128) -> Result<(), Failure> {
+fn check_memory(needed: u128) -> Result<(), Failure> {
     // A process has at most half of all addresses.
     let available =
         available(|path| std::fs::read_to_string(path).ok()).min(usize::MAX as u128 / 2);

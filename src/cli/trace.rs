@@ -33,6 +33,9 @@ pub fn run(args: Args) -> Result<(), Failure> {
     if matches!(args.at, Some(Times::Period)) && args.until.is_none() {
         return Err(Failure::input("--at: period has no end; give --until"));
     }
+    if args.save.as_deref() == Some(Path::new("-")) {
+        return Err(Failure::input("--save: standard output has the rows; give a file"));
+    }
     if let Some(path) = &args.save {
         // A long run is not made for a file that cannot be written; if it is ended, none is left.
         let is_new = !path.exists();
@@ -41,17 +44,24 @@ pub fn run(args: Args) -> Result<(), Failure> {
         opened.and_then(|_| removed()).map_err(|error| one::unsaved(path, &error))?;
     }
     let start = args.from.as_deref().map(saved).transpose()?;
-    if let (Some(State { time, .. }), Some(until)) = (&start, args.until)
-        && until < *time
-    {
-        let message =
-            format!("--until: {until:?} is before the state, at {time:?}; give a later time");
-        return Err(Failure::input(message));
+    let first_sample = match &args.at {
+        Some(Times::Values(times)) => times.first().copied(),
+        _ => None,
+    };
+    for (option, time) in [("--until", args.until), ("--at", first_sample)] {
+        if let (Some(start), Some(time)) = (&start, time)
+            && time < start.time
+        {
+            let begin = start.time;
+            let message =
+                format!("{option}: {time:?} is before the state, at {begin:?}; give a later time");
+            return Err(Failure::input(message));
+        }
     }
     let latest = Arc::new(AtomicU64::new(0));
     let job = Job { setting: setting(&args)?, start, latest: Arc::clone(&latest), args };
     let _alive = alive(move || format!("trace: at t = {:?}", f64::from_bits(latest.load(Relaxed))));
-    let mut header = job.header();
+    let (mut header, mut failed_lines) = (job.header(), 0);
     let mut out = io::stdout();
     // Scenarios are read while others run, and the rows of each are taken in turn.
     let (queue, scenarios) = sync_channel(4 * rayon::current_num_threads());
@@ -67,10 +77,17 @@ pub fn run(args: Args) -> Result<(), Failure> {
                 }
             }
             Part::Note(note) => warn(&note),
+            Part::FailedLine(message) => {
+                warn(&message);
+                failed_lines += 1;
+            }
             Part::Failed(failure) => return Err(failure),
         }
     }
-    Ok(())
+    match failed_lines {
+        0 => Ok(()),
+        number => Err(Failure::check(format!("lines refused or stopped: {number}"))),
+    }
 }
 
 /// Reads the state that `--save` wrote.
@@ -119,7 +136,13 @@ fn read_all(job: &Arc<Job>, name: &str, queue: &SyncSender<Receiver<Part>>) -> i
     for number in 1.. {
         let mut line = Vec::new();
         (&mut file).take(input::MOST << 20).read_until(b'\n', &mut line)?;
-        if line.is_empty() || !start(Some(number), input::read_from(line.as_slice())?) {
+        if line.is_empty() {
+            break;
+        }
+        if line.trim_ascii().is_empty() {
+            continue;
+        }
+        if !start(Some(number), input::read_from(line.as_slice())?) {
             break;
         }
     }

@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 
 pub type Ensembles = Experiment<Vec<Ensemble>, Vec<Counted>, Counts>;
 
-/// Returns an experiment with these ensembles and tables; people who wait see its title.
+/// Makes the experiment of some ensembles; its title is shown while it runs.
 pub const fn ensembles(
     name: &'static str,
     title: &'static str,
@@ -47,11 +47,12 @@ pub struct RunTotals {
 }
 
 impl Counted {
-    /// Returns the curve of a window, or none if there is no such window.
+    /// Returns the curve of a window, or `None` if it was not counted.
     pub fn curve(&self, transient: f64, window: f64) -> Option<&Curve> {
         self.curves.iter().find(|curve| curve.protocol == Protocol { transient, window })
     }
 
+    /// Returns the curve of the first window.
     pub fn first(&self) -> &Curve {
         &self.curves[0]
     }
@@ -59,54 +60,58 @@ impl Counted {
     /// Lists the rows of the first window with few overlapping starts.
     pub fn comparable(&self) -> impl Iterator<Item = &RisePoint> {
         let both = self.first().rows.iter().zip(&self.runs);
-        let few = both.filter(|(row, runs)| self.ensemble.compares(row.sigma, runs.rejected));
+        let few = both.filter(|(row, runs)| self.ensemble.is_comparable(row.sigma, runs.rejected));
         few.map(|(row, _)| row)
     }
 }
 
-fn cases(all: &[Ensemble]) -> impl Iterator<Item = (&Ensemble, f64)> {
-    all.iter().flat_map(|one| one.sigmas.iter().map(move |&sigma| (one, sigma)))
+/// Lists each ensemble with each of its σ.
+fn cases(ensembles: &[Ensemble]) -> impl Iterator<Item = (&Ensemble, f64)> {
+    ensembles.iter().flat_map(|one| one.sigmas.iter().map(move |&sigma| (one, sigma)))
 }
 
 /// Returns a row of work for each σ of each ensemble.
-pub fn rows(all: &Vec<Ensemble>) -> Vec<UnitRow> {
+pub fn rows(ensembles: &Vec<Ensemble>) -> Vec<UnitRow> {
     let row = |(one, sigma): (&Ensemble, f64)| UnitRow {
         realisations: one.realisations_at(sigma),
         weight: one.work(sigma),
-        together: Abreast::number(&one.chain),
+        together: Abreast::batch_size(&one.chain),
     };
-    cases(all).map(row).collect()
+    cases(ensembles).map(row).collect()
 }
 
+/// Counts the impacts of one unit of work.
 pub fn part(
-    all: &Vec<Ensemble>,
+    ensembles: &Vec<Ensemble>,
     unit: &Unit,
     stage: &Stage,
     progress: &Progress,
 ) -> Result<Counts, Error> {
-    let Some((one, sigma)) = cases(all).nth(unit.row) else { return Ok(Counts::default()) };
-    let at_sigma = one.at(sigma);
-    let some = |indices| {
+    let Some((one, sigma)) = cases(ensembles).nth(unit.row) else { return Ok(Counts::default()) };
+    let realisations = one.prepare(sigma);
+    let count = |indices| {
         progress.check()?;
-        let counts = at_sigma.count(indices, &|| progress.stopped());
+        let counts = realisations.count(indices, &|| progress.stopped());
         progress.check()?;
         counts.map_err(|source| Error::failed("an ensemble", source))
     };
-    let together = Abreast::number(&one.chain);
-    Ok(unit.in_groups(together, stage, some)?.into_iter().flatten().collect())
+    let together = Abreast::batch_size(&one.chain);
+    Ok(unit.in_groups(together, stage, count)?.into_iter().flatten().collect())
 }
 
 /// Lists each ensemble with its counts at each σ.
 pub fn joined(
-    all: &[Ensemble],
+    ensembles: &[Ensemble],
     parts: Vec<Vec<Counts>>,
 ) -> impl Iterator<Item = (Ensemble, Vec<Counts>)> {
     let mut at_each = parts.into_iter().map(Counts::from_iter);
-    all.iter().map(move |one| (one.clone(), at_each.by_ref().take(one.sigmas.len()).collect()))
+    ensembles
+        .iter()
+        .map(move |one| (one.clone(), at_each.by_ref().take(one.sigmas.len()).collect()))
 }
 
 fn join(
-    all: &Vec<Ensemble>,
+    ensembles: &Vec<Ensemble>,
     parts: Vec<Vec<Counts>>,
     progress: &Progress,
 ) -> Result<Vec<Counted>, Error> {
@@ -121,7 +126,7 @@ fn join(
         };
         let runs: Vec<RunTotals> = one.sigmas.iter().zip(&counts).map(totals).collect();
         let compared: Vec<_> =
-            runs.iter().map(|runs| one.compares(runs.sigma, runs.rejected)).collect();
+            runs.iter().map(|runs| one.is_comparable(runs.sigma, runs.rejected)).collect();
         let gaps = one.chain.gaps() as f64 / one.pieces as f64;
         let curve = |window: usize| {
             progress.check()?;
@@ -139,26 +144,28 @@ fn join(
         let curves = windows.map(curve).collect::<Result<_, Error>>()?;
         Ok(Counted { ensemble: one, runs, curves })
     };
-    joined(all, parts).map(counted).collect()
+    joined(ensembles, parts).map(counted).collect()
 }
 
-/// Returns the results of a function on each item, on all threads, each a step of the stage.
-pub fn each<A: Send, R: Send>(
+/// Runs a function on each item, on all threads, and returns the results in the order of the items;
+/// each is one step of the stage.
+pub fn run_each<A: Send, R: Send>(
     stage: &Stage,
     progress: &Progress,
-    all: impl IntoIterator<Item = A>,
+    items: impl IntoIterator<Item = A>,
     run: impl Fn(A) -> Result<R, Error> + Sync,
 ) -> Result<Vec<R>, Error> {
-    let all: Vec<A> = all.into_iter().collect();
-    let one = |item| {
+    let items: Vec<A> = items.into_iter().collect();
+    let step = |item| {
         progress.check()?;
-        let found = run(item)?;
+        let result = run(item)?;
         stage.advance(1);
-        Ok(found)
+        Ok(result)
     };
-    all.into_par_iter().with_max_len(1).map(one).collect()
+    items.into_par_iter().with_max_len(1).map(step).collect()
 }
 
-pub fn named<'a>(all: &'a [Counted], name: &str) -> Option<&'a Counted> {
-    all.iter().find(|one| one.ensemble.name == name)
+/// Returns the counts of the ensemble of this name, or `None` if there is none.
+pub fn find_ensemble<'a>(counted: &'a [Counted], name: &str) -> Option<&'a Counted> {
+    counted.iter().find(|one| one.ensemble.name == name)
 }

@@ -24,13 +24,15 @@ pub struct Horizon {
 
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Twins {
-    /// Time of the first impact whose gap differs, if there was one, and impacts before it.
+    /// Time of the first impact whose gap differs and the number of impacts before it, or `None` if
+    /// all gaps agree.
     pub order: Option<(f64, u64)>,
     /// Growth rate λ of their difference in time, e-folds per unit of time.
     pub growth: Option<f64>,
 }
 
 impl Horizon {
+    /// Estimates the growth rate λ over all twins.
     pub fn growth(&self) -> Option<Estimate> {
         average(&self.twins.iter().filter_map(|twins| twins.growth).collect::<Vec<_>>())
     }
@@ -38,21 +40,21 @@ impl Horizon {
 
 pub fn run(parameters: &Runs, progress: &Progress) -> Result<Horizon, Error> {
     let stage = progress.stage("horizon", parameters.realisations as u64);
-    let twins = each(&stage, progress, 0..parameters.realisations as u64, |index| {
-        pair(parameters, index).map_err(|source| Error::failed("horizon", source))
+    let twins = run_each(&stage, progress, 0..parameters.realisations as u64, |index| {
+        run_twins(parameters, index).map_err(|source| Error::failed("horizon", source))
     })?;
     Ok(Horizon { parameters: parameters.clone(), twins })
 }
 
-pub fn tables(found: &Horizon) -> Vec<Table> {
+pub fn tables(horizon: &Horizon) -> Vec<Table> {
     const LEAST: &str = "least time of the first impact of another gap";
-    let orders = found.twins.iter().filter_map(|pair| pair.order);
+    let orders = horizon.twins.iter().filter_map(|pair| pair.order);
     let (times, before): (Vec<f64>, Vec<f64>) = orders.map(|(t, n)| (t, n as f64)).unzip();
     let least = times.iter().copied().fold(f64::INFINITY, f64::min);
-    let table = Table::of("horizon.twins", &[found], |found| found.twins.len())
+    let table = Table::of("horizon.twins", &[horizon], |horizon| horizon.twins.len())
         .computed_by(origin(run))
-        .count("pairs", "pairs of twins", |found| found.twins.len() as u64)
-        .chosen("sigma", SIGMA, "", |found| Some(found.parameters.sigma))
+        .count("pairs", "pairs of twins", |horizon| horizon.twins.len() as u64)
+        .chosen("sigma", SIGMA, "", |horizon| Some(horizon.parameters.sigma))
         .estimate("order", TIME, "time of the first impact of another gap", |_| average(&times))
         .estimate("impacts", "1", "impacts before it", |_| average(&before))
         .real("first_order", TIME, 3, LEAST, |_| least)
@@ -66,12 +68,13 @@ const GROWING: std::ops::Range<f64> = 1e-13..1e-4;
 /// Units of time in which the largest difference is one point of the growth.
 const STRIDE: f64 = 5.0;
 
-/// Returns λ by a line through the largest logarithm of each stride; none below three points.
-fn rate(differences: &[(f64, f64)]) -> Option<f64> {
+/// Returns λ, the slope of a line through the largest logarithm of each stride, or `None` below
+/// three points.
+fn growth_rate(differences: &[(f64, f64)]) -> Option<f64> {
     let stride = |point: &(f64, f64)| (point.0 / STRIDE) as u64;
     let points: Vec<(f64, f64)> = differences
         .chunk_by(|a, b| stride(a) == stride(b))
-        .map(|points| (stride(&points[0]), points.iter().map(|at| at.1).fold(0.0, f64::max)))
+        .map(|points| (stride(&points[0]), points.iter().map(|point| point.1).fold(0.0, f64::max)))
         .filter(|(_, largest)| GROWING.contains(largest))
         .map(|(stride, largest)| ((stride as f64 + 0.5) * STRIDE, pxfm::f_log(largest)))
         .collect();
@@ -79,7 +82,7 @@ fn rate(differences: &[(f64, f64)]) -> Option<f64> {
 }
 
 /// Runs a scenario and its twin, whose amplitudes are one bit larger and smaller in turn.
-fn pair(parameters: &Runs, index: u64) -> Result<Twins, impact_chain::Error> {
+fn run_twins(parameters: &Runs, index: u64) -> Result<Twins, impact_chain::Error> {
     let scenario = parameters.scenario(index);
     let mut twin = scenario.clone();
     for (j, amplitude) in twin.forcing.iter_mut().flatten().enumerate() {
@@ -95,7 +98,7 @@ fn pair(parameters: &Runs, index: u64) -> Result<Twins, impact_chain::Error> {
         }
         growth.push((one.time, (one.time - other.time).abs()));
     }
-    Ok(Twins { order, growth: rate(&growth) })
+    Ok(Twins { order, growth: growth_rate(&growth) })
 }
 
 #[cfg(test)]
@@ -107,8 +110,8 @@ mod tests {
         // e^(t/4), hidden by rounding before and by saturation after.
         let difference = |time: f64| (1e-15 * pxfm::f_exp(0.25 * time)).clamp(1e-14, 1e-3);
         let times = || (0..200).map(|i| 0.5 * f64::from(i));
-        let found = rate(&times().map(|time| (time, difference(time))).collect::<Vec<_>>());
-        assert!((found.unwrap() - 0.25).abs() < 1e-3, "{found:?}");
-        assert_eq!(rate(&times().map(|time| (time, 1e-15)).collect::<Vec<_>>()), None);
+        let growth = growth_rate(&times().map(|time| (time, difference(time))).collect::<Vec<_>>());
+        assert!((growth.unwrap() - 0.25).abs() < 1e-3, "{growth:?}");
+        assert_eq!(growth_rate(&times().map(|time| (time, 1e-15)).collect::<Vec<_>>()), None);
     }
 }

@@ -1,45 +1,43 @@
 //! Lists the experiments in the order in which they run, and the tables that need several.
 
-use super::{
-    BIAS, BRANCHES, HORIZON, JUMP, LENGTHS, MEASURED, NUCLEATION, PROGRAMS, PROTOCOL, RACE, REPLAY,
-    RESTITUTION, SCALE, SECOND_SEED, SEEDS, SEGMENTS, SPACE_TIME, STARTS, SWEEP, TRIALS,
-    TWO_MASSES, identities, seeds, starts, theory,
-};
+use super::{accuracy, identities, seeds, starts, theory};
 use crate::params;
 use literate::experiments::experiment::How::Read;
 use literate::experiments::{AnyExperiment, DerivedTables, Experiment};
 use literate::{Paper, Project, Sources};
 
+/// All experiments in the order in which they run.
 pub const ALL: &[&dyn AnyExperiment] = &[
     &THEORY,
-    &SEGMENTS,
-    &MEASURED,
-    &SWEEP,
-    &SECOND_SEED,
-    &JUMP,
-    &PROTOCOL,
-    &STARTS,
-    &HORIZON,
-    &TWO_MASSES,
-    &SPACE_TIME,
-    &RACE,
-    &BIAS,
-    &TRIALS,
-    &PROGRAMS,
-    &SCALE,
-    &NUCLEATION,
-    &SEEDS,
-    &RESTITUTION,
-    &LENGTHS,
-    &BRANCHES,
-    &REPLAY,
+    &super::SEGMENTS,
+    &super::MEASURED,
+    &super::SWEEP,
+    &super::SECOND_SEED,
+    &super::JUMP,
+    &super::PROTOCOL,
+    &super::STARTS,
+    &super::HORIZON,
+    &super::TWO_MASSES,
+    &super::SPACE_TIME,
+    &super::RACE,
+    &super::BIAS,
+    &super::TRIALS,
+    &super::PROGRAMS,
+    &super::SCALE,
+    &super::NUCLEATION,
+    &super::SEEDS,
+    &super::RESTITUTION,
+    &super::LENGTHS,
+    &super::BRANCHES,
+    &super::REPLAY,
 ];
 
+/// Tables that need results of several experiments.
 const DERIVED: [DerivedTables; 4] = [
     theory::comparison::tables,
     seeds::compared::tables,
     starts::against_theory,
-    super::accuracy::answers::tables,
+    accuracy::answers::tables,
 ];
 
 /// The graph theory, which costs nothing and is never saved.
@@ -72,7 +70,7 @@ const APART: &[(&str, &str)] = &[
     ("src/contents.rs", "shows results, as do the next two"),
     ("src/equations.rs", "lists equations"),
     ("src/lab.rs", "hands results to pages"),
-    ("src/lib.rs", "declares modules"),
+    ("src/lib.rs", "puts the paper together"),
     ("src/experiments/mod.rs", "declares modules"),
     ("src/experiments/prelude.rs", "names what stands elsewhere"),
     ("src/experiments/list.rs", "lists experiments"),

@@ -37,9 +37,10 @@ pub struct Machine {
     pub os: String,
 }
 
+/// What was timed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum What {
+pub enum Subject {
     /// One chain in the engine of this project.
     Engine,
     /// A method of this project with one setting, timed in turn with the engine.
@@ -60,7 +61,8 @@ pub enum What {
 /// of 106 bits up to the first wrong impact (the *horizon*).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Measurement {
-    pub what: What,
+    #[serde(rename = "what")]
+    pub subject: Subject,
     pub name: String,
     pub value: Option<f64>,
     pub n: u64,
@@ -70,9 +72,10 @@ pub struct Measurement {
     pub chains: u64,
     /// The best of several repetitions.
     pub microseconds_per_impact: Option<f64>,
-    /// Time of the first impact with a wrong gap or off by more than 1e−3; none if all are right.
+    /// Time of the first impact with a wrong gap or off by more than 1e−3, or `None` if all are
+    /// right.
     pub horizon_time: Option<f64>,
-    /// Time of all of it: of the clock, for methods of the processor.
+    /// Time of the whole run: of the clock, for methods of the processor.
     pub seconds: Option<f64>,
     /// Processor time of the engine on the same chains, for methods.
     pub engine_seconds: Option<f64>,
@@ -85,8 +88,8 @@ pub fn committed<T: DeserializeOwned>(session: &Session<'_>, file: &str) -> Resu
         let again = "run make measure again, or restore the file";
         Error::input(field, one_line(&error.to_string(), 1000), again)
     };
-    let text = session.project.text(file).map_err(|error| wrong(file, &error))?;
-    let mut reader = serde_json::Deserializer::from_str(&text);
+    let json = session.project.text(file).map_err(|error| wrong(file, &error))?;
+    let mut reader = serde_json::Deserializer::from_str(&json);
     serde_path_to_error::deserialize(&mut reader).map_err(|error| {
         let field = format!("{file}: {}", one_line(&error.path().to_string(), 80));
         wrong(&field, error.inner())
@@ -94,38 +97,32 @@ pub fn committed<T: DeserializeOwned>(session: &Session<'_>, file: &str) -> Resu
 }
 
 impl Measured {
-    pub fn of(&self, what: What) -> impl Iterator<Item = &Measurement> {
-        self.sessions.iter().flat_map(|session| &session.rows).filter(move |row| row.what == what)
+    /// Lists the rows of all sessions on a subject.
+    pub fn rows_about(&self, subject: Subject) -> impl Iterator<Item = &Measurement> {
+        self.sessions
+            .iter()
+            .flat_map(|session| &session.rows)
+            .filter(move |row| row.subject == subject)
     }
 
-    fn rows(&self, what: What, of: Setting, n: usize) -> impl Iterator<Item = &Measurement> {
-        let rows = self.of(what).filter(move |row| row.n == n as u64);
-        rows.filter(move |row| row.method() == of.method.id() && row.value == Some(of.value))
+    fn rows(
+        &self,
+        subject: Subject,
+        setting: Setting,
+        n: usize,
+    ) -> impl Iterator<Item = &Measurement> {
+        let Setting { method, value, .. } = setting;
+        let rows = self.rows_about(subject).filter(move |row| row.n == n as u64);
+        rows.filter(move |row| row.method() == method.id() && row.value == Some(value))
     }
 
     pub fn method(&self, setting: Setting, n: usize, sigma: f64) -> Option<&Measurement> {
-        let mut rows = self.rows(What::Method, setting, n);
+        let mut rows = self.rows(Subject::Method, setting, n);
         rows.find(|row| row.sigma == sigma && !row.is_generic())
     }
 
     pub fn size(&self, setting: Setting, n: usize) -> Option<&Measurement> {
-        self.rows(What::Size, setting, n).next()
-    }
-
-    /// Returns the seconds of a setting for a thousand chains to a time, where runs end when a
-    /// question is answered, or to their end; without the vectors that few processors have, or
-    /// with.
-    pub fn seconds(
-        &self,
-        (what, generic): (What, bool),
-        setting: Setting,
-        run: &Runs,
-        until: f64,
-    ) -> Option<f64> {
-        let mut rows = self.rows(what, setting, run.chain.masses);
-        self.thousand(rows.find(|row| {
-            row.sigma == run.sigma && row.until == until && row.is_generic() == generic
-        })?)
+        self.rows(Subject::Size, setting, n).next()
     }
 
     /// Returns the seconds of one core for a thousand chains: the engine's, times the ratio to it.
@@ -135,15 +132,40 @@ impl Measured {
             (other.sigma, other.until, other.is_generic())
                 == (row.sigma, row.until, row.is_generic())
         };
-        let engine = self.rows(row.what, engine, row.n as usize).find(alike)?;
+        let engine = self.rows(row.subject, engine, row.n as usize).find(alike)?;
         Some(row.over_engine()? * engine.seconds? / engine.chains as f64 * 1e3)
     }
 
     /// Returns the microseconds of an impact by the engine, as many masses, in a row's session.
     pub fn engine(&self, row: &Measurement) -> Option<f64> {
         let session = self.sessions.iter().find(|session| session.rows.contains(row))?;
-        let engine = session.rows.iter().filter(|at| at.what == What::Engine && at.n == row.n);
-        engine.filter_map(|row| row.microseconds_per_impact).next_back()
+        let is_engine = |own: &&Measurement| own.subject == Subject::Engine && own.n == row.n;
+        let engine = session.rows.iter().filter(is_engine);
+        engine.filter_map(|own| own.microseconds_per_impact).next_back()
+    }
+}
+
+/// The measured times of methods with the vectors that any processor has, or with those of a few.
+#[derive(Clone, Copy)]
+pub struct Times<'a> {
+    pub measured: &'a Measured,
+    pub is_generic: bool,
+}
+
+impl Times<'_> {
+    /// Returns the seconds of one core for a thousand chains up to a time, or `None` if they were
+    /// not measured.
+    pub fn seconds(
+        self,
+        subject: Subject,
+        setting: Setting,
+        runs: &Runs,
+        until: f64,
+    ) -> Option<f64> {
+        let mut rows = self.measured.rows(subject, setting, runs.chain.masses);
+        self.measured.thousand(rows.find(|row| {
+            row.sigma == runs.sigma && row.until == until && row.is_generic() == self.is_generic
+        })?)
     }
 }
 
@@ -168,30 +190,34 @@ impl Measurement {
 /// Makes the tables of times that the report quotes, with when and where they were measured.
 pub fn tables(measured: &Measured) -> Vec<Table> {
     // The last session of the engine and that of the methods, which may be one.
-    let parts = [("engine", What::Engine), ("methods", What::Method)];
-    let session = |what: What| {
-        measured.sessions.iter().rfind(|session| session.rows.iter().any(|row| row.what == what))
+    let parts = [("engine", Subject::Engine), ("methods", Subject::Method)];
+    let session = |subject: Subject| {
+        measured
+            .sessions
+            .iter()
+            .rfind(|session| session.rows.iter().any(|row| row.subject == subject))
     };
-    let found: Vec<(&str, &MeasuredOn)> =
-        parts.into_iter().filter_map(|(of, what)| Some((of, session(what)?))).collect();
-    let machine = Table::of("measured.machine", &found, |_| 1)
-        .text_key("of", |(of, _)| (*of).into())
+    let sessions: Vec<(&str, &MeasuredOn)> =
+        parts.into_iter().filter_map(|(part, subject)| Some((part, session(subject)?))).collect();
+    let machine = Table::of("measured.machine", &sessions, |_| 1)
+        .text_key("of", |(part, _)| (*part).into())
         .computed_by(origin(tables))
         .words("date", "when", |(_, on)| on.date.clone())
         .words("processor", "on what", |(_, on)| on.machine.processor.replace("(R)", ""))
         .words("os", "under what", |(_, on)| on.machine.os.replace('_', "-"))
         .measured();
     let n = 100;
-    let one = measured.of(What::Engine).filter(|row| row.n == n && row.chains == 1);
-    let engine = one.filter_map(|row| row.microseconds_per_impact).last();
+    let single = measured.rows_about(Subject::Engine).filter(|row| row.n == n && row.chains == 1);
+    let engine = single.filter_map(|row| row.microseconds_per_impact).last();
     let meaning = format!("time of an impact in the engine, one chain of {n} masses");
     let impact = Table::of("measured.impact", &[()], |()| 1)
         .computed_by(origin(tables))
         .real("engine", "us", 2, &meaning, |()| engine)
         .measured();
-    let one = measured.of(What::Engine).chain(measured.of(What::Peer));
-    let one: Vec<_> = one.filter(|row| row.chains == 1 && row.horizon_time.is_some()).collect();
-    let finest = one.chunk_by(|a, b| (&a.name, a.n) == (&b.name, b.n)).filter_map(<[_]>::last);
+    let single = measured.rows_about(Subject::Engine).chain(measured.rows_about(Subject::Peer));
+    let single: Vec<_> =
+        single.filter(|row| row.chains == 1 && row.horizon_time.is_some()).collect();
+    let finest = single.chunk_by(|a, b| (&a.name, a.n) == (&b.name, b.n)).filter_map(<[_]>::last);
     let finest: Vec<_> = finest.collect();
     let chain = Table::of("measured.chain", &finest, |_| 1)
         .text_key("program", |row| row.name.split(' ').next().unwrap_or_default().into())
@@ -201,7 +227,7 @@ pub fn tables(measured: &Measured) -> Vec<Table> {
             row.horizon_time
         })
         .measured();
-    let rows: Vec<&Measurement> = measured.of(What::Method).collect();
+    let rows: Vec<&Measurement> = measured.rows_about(Subject::Method).collect();
     let methods = Table::of("measured.methods", &rows, |row| row.chains as usize)
         .text_key("setting", |row| match row.value {
             Some(value) => format!("{}-{value}", row.name),

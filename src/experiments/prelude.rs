@@ -1,12 +1,12 @@
 //! Gathers what most experiments use, and the units and words that several tables have.
 
-pub use crate::experiments::ensembles::{Counted, each, named};
+pub use crate::experiments::ensembles::{Counted, find_ensemble, run_each};
 pub use crate::params::Chain;
 pub use impact_chain::State;
 pub use impact_chain::rise::Curve;
 pub use impact_chain::{Engine, Impact, Scenario};
 pub use impact_numerics::estimates::{average, difference, share, with_error};
-pub use impact_numerics::random::NormalPairs;
+pub use impact_numerics::random::{NormalPairs, Seed};
 pub use impact_numerics::statistics::Estimate;
 pub use literate::experiments::cutting::SECOND;
 pub use literate::experiments::experiment::How::{Read, Whole};
@@ -27,6 +27,6 @@ pub const OF_ACTIVE: &str =
 pub const ANY_IMPACT: &str = "σ where half of the realisations have an impact";
 
 /// Returns the half height of the mean of all realisations in the first window.
-pub fn half_height_all(of: &Counted) -> Option<Estimate> {
-    of.first().rise.half_height_all
+pub fn half_height_all(counted: &Counted) -> Option<Estimate> {
+    counted.first().rise.half_height_all
 }

@@ -43,13 +43,15 @@ pub struct Run {
 }
 
 impl Run {
+    /// Returns the outcomes of the cases of a scene.
     pub fn trial(&self, scene: &Scene) -> &Trial {
         &self.outcomes[&scene.id]
     }
 
-    /// Returns the smallest difficulty of a scene down to which all cases are right, if any is.
+    /// Returns the smallest difficulty of a scene down to which all cases are right, or `None` if
+    /// the easiest case is not.
     fn hardest(&self, scene: &str) -> Option<f64> {
-        let scene = scenes().into_iter().find(|of| of.id == scene)?;
+        let scene = scenes().into_iter().find(|other| other.id == scene)?;
         let mut cases: Vec<_> = scene.cases.iter().zip(self.trial(&scene)).collect();
         cases.sort_by(|a, b| b.0.difficulty.total_cmp(&a.0.difficulty));
         let solved = cases.iter().take_while(|(_, outcome)| **outcome == Outcome::Right);
@@ -75,20 +77,23 @@ fn complete(programs: Vec<Program>) -> Result<Vec<Program>, Error> {
 fn tables(programs: &Vec<Program>) -> Vec<Table> {
     let rows: Vec<(&Program, usize, &Run)> = programs
         .iter()
-        .flat_map(|of| of.settings.iter().enumerate().map(move |(i, run)| (of, i + 1, run)))
+        .flat_map(|program| {
+            program.settings.iter().enumerate().map(move |(i, run)| (program, i + 1, run))
+        })
         .collect();
-    let total = |of: fn(&Trial) -> usize, run: &Run| run.outcomes.values().map(of).sum::<usize>();
+    let total =
+        |count: fn(&Trial) -> usize, run: &Run| run.outcomes.values().map(count).sum::<usize>();
     let share = |trial: &Trial| right(trial) as f64 / trial.len() as f64;
     let among = |run: &Run, these: &[Outcome]| {
         run.outcomes.values().flatten().filter(|outcome| these.contains(outcome)).count() as u64
     };
     let table = Table::of("programs.all", &rows, |_| 1)
-        .text_key("script", |(of, ..)| of.script.clone())
+        .text_key("script", |(program, ..)| program.script.clone())
         .key("setting", "1", |(_, i, _)| *i as f64)
         .words("name", "program", |(.., run)| run.name.clone())
         .words("version", "its version", |(.., run)| run.version.clone())
         .words("settings", "its settings", |(.., run)| run.settings.clone())
-        .words("date", "when it was run", |(of, ..)| of.date.clone())
+        .words("date", "when it was run", |(program, ..)| program.date.clone())
         .computed_by(origin(complete))
         .count("cases", "cases of all scenes", |(.., run)| total(Trial::len, run) as u64)
         .count("right", "cases with the expected outcome", |(.., run)| total(right, run) as u64)
@@ -113,13 +118,13 @@ fn tables(programs: &Vec<Program>) -> Vec<Table> {
         })
         .measured();
     let scenes = scenes();
-    let all_right = |of: &Scene| {
-        rows.iter().filter(|(.., run)| right(run.trial(of)) == of.cases.len()).count() as u64
+    let all_right = |scene: &Scene| {
+        rows.iter().filter(|(.., run)| right(run.trial(scene)) == scene.cases.len()).count() as u64
     };
-    let by_scene = Table::of("programs.scenes", &scenes, |of| of.cases.len())
-        .text_key("scene", |of| of.id.clone())
+    let by_scene = Table::of("programs.scenes", &scenes, |scene| scene.cases.len())
+        .text_key("scene", |scene| scene.id.clone())
         .computed_by(origin(complete))
-        .count("cases", "its cases", |of| of.cases.len() as u64)
+        .count("cases", "its cases", |scene| scene.cases.len() as u64)
         .count("settings", "programs and settings", |_| rows.len() as u64)
         .count("right", "of them, right in all cases", all_right)
         .measured();

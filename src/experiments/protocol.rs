@@ -7,13 +7,13 @@ use impact_chain::rise::Rise;
 
 pub const PROTOCOL: Ensembles = ensembles("protocol", "protocol map", params::protocol, tables);
 
-pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
-    let Some(map) = named(found, PROTOCOL.name) else { return Vec::new() };
+pub fn tables(counted: &Vec<Counted>) -> Vec<Table> {
+    let Some(map) = find_ensemble(counted, PROTOCOL.name) else { return Vec::new() };
     let halves = map.curves.iter().filter_map(|cell| cell.rise.half_height);
     let mut halves: Vec<Estimate> = halves.collect();
     halves.sort_by(|a, b| a.value.total_cmp(&b.value));
     let printed = round_to_printed(map, printed_interval(), |rise| rise.half_height);
-    let all = Table::of("protocol.all", &[map], |map| map.ensemble.realisations)
+    let summary = Table::of("protocol.all", &[map], |map| map.ensemble.realisations)
         .count("realisations", "chains at each σ", |map| map.ensemble.realisations as u64)
         .count("sigmas", "values of σ", |map| map.ensemble.sigmas.len() as u64)
         .count("combinations", "transients times windows", |map| map.curves.len() as u64)
@@ -22,7 +22,7 @@ pub fn tables(found: &Vec<Counted>) -> Vec<Table> {
         .estimate("largest", SIGMA, "largest half height", |_| halves.last().copied())
         .estimate("least", SIGMA, "least half height", |_| halves.first().copied())
         .done();
-    vec![cells(map), all]
+    vec![cells(map), summary]
 }
 
 /// Counts the windows in which a place of the rise lies between the ends of the printed number.
@@ -32,10 +32,10 @@ pub fn round_to_printed(
     place: fn(&Rise) -> Option<Estimate>,
 ) -> usize {
     let places = map.curves.iter().filter_map(|curve| place(&curve.rise));
-    places.filter(|at| (from..to).contains(&at.value)).count()
+    places.filter(|place| (from..to).contains(&place.value)).count()
 }
 
-/// Returns the distance of the largest of some places from the least.
+/// Returns how far the largest of some places lies from the least, or `None` without places.
 pub fn range(places: impl Iterator<Item = Option<Estimate>>) -> Option<Estimate> {
     let places: Vec<Estimate> = places.flatten().collect();
     let least = places.iter().min_by(|a, b| a.value.total_cmp(&b.value))?;

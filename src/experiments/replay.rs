@@ -2,7 +2,6 @@
 
 use crate::experiments::prelude::*;
 use crate::params::{Boundary, Profile, Protocol, SEED, Start, printed_threshold};
-use impact_chain::Error as Failure;
 use literate::input::sha256;
 use std::collections::BTreeSet;
 
@@ -41,7 +40,8 @@ pub type ReplayRuns = Vec<(String, Request)>;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Replays {
     pub parameters: ReplayRuns,
-    pub found: Vec<ReplayResult>,
+    #[serde(rename = "found")]
+    pub results: Vec<ReplayResult>,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -88,41 +88,42 @@ pub fn runs(_: Profile) -> ReplayRuns {
         ("ties: a mass is hit from both sides", given(hit_twice, 0.8, 100.0)),
         ("ties: a chain is its own mirror image", given(mirrored(), 0.8, 50.0)),
     ];
-    named.map(|(name, asked)| (name.to_string(), asked)).into()
+    named.map(|(name, request)| (name.to_string(), request)).into()
 }
 
 /// Returns the forces on 20 masses of which the right half mirrors the left.
 fn mirrored() -> Vec<[f64; 2]> {
     let chain = Chain { masses: 10, ..Chain::default() };
-    let half = Scenario::draw(&chain, 0.3, &mut NormalPairs::new("mirror", SEED, 0)).forcing;
+    let half = Scenario::draw(&chain, 0.3, &mut NormalPairs::new("mirror", Seed(SEED), 0)).forcing;
     let other = half.iter().rev().map(|pair| pair.map(|x| -x));
     half.iter().copied().chain(other).collect()
 }
 
 pub fn run(parameters: &ReplayRuns, progress: &Progress) -> Result<Replays, Error> {
     let stage = progress.stage("replays", parameters.len() as u64);
-    let one = |(_, asked): &(String, Request)| {
-        replay(asked).map_err(|source| Error::failed("replay", source))
+    let one = |(_, request): &(String, Request)| {
+        replay(request).map_err(|source| Error::failed("replay", source))
     };
-    Ok(Replays { parameters: parameters.clone(), found: each(&stage, progress, parameters, one)? })
+    let results = run_each(&stage, progress, parameters, one)?;
+    Ok(Replays { parameters: parameters.clone(), results })
 }
 
-fn replay(asked: &Request) -> Result<ReplayResult, Failure> {
-    let scenario = match &asked.forces {
+fn replay(request: &Request) -> Result<ReplayResult, impact_chain::Error> {
+    let scenario = match &request.forces {
         Forces::Drawn { sigma, stream, seed, realisation } => {
-            let mut normals = NormalPairs::new(stream, *seed, *realisation);
-            Scenario::draw(&asked.chain, *sigma, &mut normals)
+            let mut normals = NormalPairs::new(stream, Seed(*seed), *realisation);
+            Scenario::draw(&request.chain, *sigma, &mut normals)
         }
-        Forces::Given(pairs) => Scenario::given(&asked.chain, pairs.clone())?,
+        Forces::Given(pairs) => Scenario::given(&request.chain, pairs.clone())?,
     };
     let mut engine = Engine::new(&scenario)?;
     let (mut hit, mut bytes) = (BTreeSet::new(), Vec::new());
-    for impact in engine.impacts(asked.transient + asked.window)? {
+    for impact in engine.impacts(request.transient + request.window)? {
         let Impact { time, gap, closing_speed } = impact;
         for bits in [time.to_bits(), gap as u64, closing_speed.to_bits()] {
             bytes.extend(bits.to_le_bytes());
         }
-        if time > asked.transient {
+        if time > request.transient {
             hit.insert(gap);
         }
     }
@@ -136,23 +137,27 @@ fn replay(asked: &Request) -> Result<ReplayResult, Failure> {
     })
 }
 
-pub fn tables(all: &Replays) -> Vec<Table> {
-    let rows: Vec<_> = all.parameters.iter().zip(&all.found).collect();
+pub fn tables(replays: &Replays) -> Vec<Table> {
+    let rows: Vec<_> = replays.parameters.iter().zip(&replays.results).collect();
     let runs = Table::of("replay.runs", &rows, |_| 1)
         .text_key("run", |((name, _), _)| name.clone())
         .computed_by(origin(run))
-        .count("masses", "masses", |((_, asked), _)| asked.chain.masses as u64)
-        .chosen("until", TIME, "length", |((_, asked), _)| Some(asked.transient + asked.window))
-        .count("impacts", "impacts", |(_, found)| found.impacts)
-        .count("distinct", "gaps with an impact in the window", |(_, found)| found.distinct)
-        .count("contact_phases", "contact phases", |(_, found)| found.contact_phases)
-        .count("simultaneous", "ties", |(_, found)| found.simultaneous)
-        .words("sha256", "of all impacts: time, gap, speed", |(_, found)| found.digest.clone())
+        .count("masses", "masses", |((_, request), _)| request.chain.masses as u64)
+        .chosen("until", TIME, "length", |((_, request), _)| {
+            Some(request.transient + request.window)
+        })
+        .count("impacts", "impacts", |(_, result)| result.impacts)
+        .count("distinct", "gaps with an impact in the window", |(_, result)| result.distinct)
+        .count("contact_phases", "contact phases", |(_, result)| result.contact_phases)
+        .count("simultaneous", "ties", |(_, result)| result.simultaneous)
+        .words("sha256", "of all impacts: time, gap, speed", |(_, result)| result.digest.clone())
         .done();
-    let sums = Table::of("replay.all", &[all], |all| all.found.len())
+    let sums = Table::of("replay.all", &[replays], |replays| replays.results.len())
         .computed_by(origin(run))
-        .count("runs", "runs", |all| all.found.len() as u64)
-        .count("impacts", "impacts of all", |all| all.found.iter().map(|one| one.impacts).sum())
+        .count("runs", "runs", |replays| replays.results.len() as u64)
+        .count("impacts", "impacts of all", |replays| {
+            replays.results.iter().map(|result| result.impacts).sum()
+        })
         .done();
     vec![runs, sums]
 }

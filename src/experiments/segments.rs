@@ -24,8 +24,8 @@ pub struct Segments {
     pub fig06: Segment,
     /// Periodic orbits with the impacts of Fig. 5 and of Fig. 6, each over two periods.
     pub periodic: [Segment; 2],
-    /// Periodic orbits that are no circuit, likewise: one without an impact, and one in which two
-    /// masses, driven against each other, hit both walls at one instant.
+    /// Periodic orbits that are no circuit, over two periods too: one without an impact, and one in
+    /// which two masses, driven against each other, hit both walls at one instant.
     pub no_circuit: [Segment; 2],
 }
 
@@ -63,11 +63,11 @@ impl Segment {
     pub fn circuit(&self) -> &[SegmentImpact] {
         match &self.impacts[..] {
             [first, .., last] if first.gap == last.gap => &self.impacts[..self.impacts.len() - 1],
-            all => all,
+            impacts => impacts,
         }
     }
 
-    /// Its impacts by the names of the paper: `L-1, 1-2, 3-R`.
+    /// Returns the names of its impacts as the paper has them: `L-1, 1-2, 3-R`.
     pub fn names(&self) -> Vec<String> {
         let graph = Graph::of_chain(self.masses);
         self.circuit().iter().map(|impact| graph.label(impact.gap).to_string()).collect()
@@ -84,13 +84,14 @@ impl Segment {
         repeated
     }
 
-    /// Of a segment over two periods: the impacts of the first.
+    /// Returns a segment over two periods with the impacts of the first alone.
     pub fn first_period(&self) -> Segment {
         let impacts = self.impacts[..self.impacts.len() / 2].to_vec();
         Segment { impacts, ..self.clone() }
     }
 
-    /// Largest distance of positions and impact times one period apart; infinite if impacts differ.
+    /// Returns the largest distance of positions and of impact times one period apart, or infinity
+    /// if the impacts differ.
     fn apart(&self) -> f64 {
         let half = self.impacts.len() / 2;
         let (first, second) = self.impacts.split_at(half);
@@ -106,6 +107,7 @@ impl Segment {
         times.chain(positions).fold(0.0, f64::max)
     }
 
+    /// Returns the number of masses with an impact.
     pub fn masses_hit(&self) -> usize {
         let both_sides = self.impacts.iter().flat_map(|impact| [impact.gap, impact.gap + 1]);
         let masses = both_sides.filter(|body| (1..=self.masses).contains(body));
@@ -124,8 +126,8 @@ impl Segment {
 
 pub fn tables(segments: &Segments) -> Vec<Table> {
     let [first, second] = &segments.periodic;
-    let both = [(5.0, &segments.fig05), (6.0, &segments.fig06)];
-    let table = Table::of("segments.circuits", &both, |_| 1)
+    let drawn = [(5.0, &segments.fig05), (6.0, &segments.fig06)];
+    let table = Table::of("segments.circuits", &drawn, |_| 1)
         .key("figure", "1", |(figure, _)| *figure)
         .computed_by(origin(Segment::masses_hit))
         .count("masses", "that take part", |(_, one)| one.masses_hit() as u64)
@@ -175,8 +177,8 @@ struct Saved {
 
 pub fn read(session: &Session<'_>) -> Result<Segments, Error> {
     let one = |file: &str| {
-        let text = session.templates.text(file).map_err(|error| error.to_string());
-        text.and_then(replay).map_err(|problem| {
+        let json = session.templates.text(file).map_err(|error| error.to_string());
+        json.and_then(replay).map_err(|problem| {
             let remedy = "restore it, or find it anew by the directed search";
             Error::input(file, one_line(&problem, 500), remedy)
         })
@@ -196,8 +198,9 @@ pub fn read(session: &Session<'_>) -> Result<Segments, Error> {
     Ok(Segments { fig05: fig05?, fig06: fig06?, periodic, no_circuit })
 }
 
-fn replay(text: &str) -> Result<Segment, String> {
-    let saved: Saved = serde_json::from_str(text).map_err(|error| error.to_string())?;
+/// Records the segment of a saved scenario.
+fn replay(json: &str) -> Result<Segment, String> {
+    let saved: Saved = serde_json::from_str(json).map_err(|error| error.to_string())?;
     Scenario::from_json(&saved.scenario.to_string())
         .and_then(|scenario| record(&scenario, saved.from, saved.until))
         .map_err(|error| error.to_string())
@@ -218,12 +221,12 @@ fn record(scenario: &Scenario, from: f64, until: f64) -> Result<Segment, impact_
         let time = if point == POINTS { until } else { from + point as f64 * step };
         // The engine stops after each impact, because positions are exact only up to the next.
         while let Some(Impact { time, gap, .. }) = engine.next_impact(time)? {
-            let positions = engine.positions(time)?;
+            let positions = engine.state(time)?.positions;
             let position = if gap == 0 { 0.0 } else { positions[gap.min(masses) - 1] };
             impacts.push(SegmentImpact { time, gap, position });
             push(time, positions);
         }
-        push(time, engine.positions(time)?);
+        push(time, engine.state(time)?.positions);
     }
     Ok(Segment { spacing, masses, from, until, times, positions: tracks, impacts })
 }

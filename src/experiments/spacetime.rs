@@ -42,6 +42,7 @@ impl SpaceTime {
         self.parameters.chain.gaps()
     }
 
+    /// Returns the time of the first impact of each gap, or `None` if it has none.
     pub fn firsts(&self) -> Vec<Option<f64>> {
         let mut firsts = vec![None; self.width()];
         for (&time, &gap) in self.times.iter().zip(&self.gaps) {
@@ -78,14 +79,14 @@ impl SpaceTime {
     }
 }
 
-pub fn tables(found: &SpaceTime) -> Vec<Table> {
-    let advances = found.advances();
+pub fn tables(run: &SpaceTime) -> Vec<Table> {
+    let advances = run.advances();
     let median = advances.get(advances.len() / 2);
-    let table = Table::of("spacetime.run", &[found], |_| 1)
-        .chosen("sigma", SIGMA, "standard deviation σ", |found| Some(found.parameters.sigma))
-        .chosen("until", TIME, "length of the run", |found| Some(found.parameters.until))
+    let table = Table::of("spacetime.run", &[run], |_| 1)
+        .chosen("sigma", SIGMA, "standard deviation σ", |run| Some(run.parameters.sigma))
+        .chosen("until", TIME, "length of the run", |run| Some(run.parameters.until))
         .computed_by(origin(SpaceTime::starts))
-        .count("starts", "gaps hit when neither neighbour was", |found| found.starts().len() as u64)
+        .count("starts", "gaps hit when neither neighbour was", |run| run.starts().len() as u64)
         .computed_by(origin(SpaceTime::advances))
         .real("advance_median", TIME, 3, "median step of a front", |_| median.copied())
         .real("advance_longest", TIME, 3, "longest step of a front", |_| advances.last().copied())

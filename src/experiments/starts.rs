@@ -7,7 +7,7 @@ use crate::params;
 pub const STARTS: Ensembles = ensembles("starts", "variants", params::starts, tables);
 
 pub fn tables(variants: &Vec<Counted>) -> Vec<Table> {
-    let rest = named(variants, "rest").and_then(half_height_all);
+    let rest = find_ensemble(variants, "rest").and_then(half_height_all);
     let less = |one: &Counted| Some(difference(half_height_all(one)?, rest?));
     let table = Table::of("starts.variants", variants, |one| one.ensemble.realisations)
         .text_key("chain", |one| one.ensemble.name.clone())
@@ -23,16 +23,16 @@ pub fn tables(variants: &Vec<Counted>) -> Vec<Table> {
 
 /// Makes the table of the part of the distance to the theory that the start explains: for chains
 /// with an impact, which the theory counts and the paper plots, and for all.
-pub fn against_theory(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
+pub fn against_theory(results: &Results, computed: &[Table]) -> Option<Vec<Table>> {
     let starts = results.of(&STARTS).ok()?;
-    let relation = all.iter().find(|table| table.name() == "theory.relation")?;
+    let relation = computed.iter().find(|table| table.name() == "theory.relation")?;
     let theory = relation.number(&[], "sigma_half").ok()?;
     let share = |place: fn(&Counted) -> Option<Estimate>| {
-        let [rest, random] = ["rest", "random"].map(|name| place(named(starts, name)?));
+        let [rest, random] = ["rest", "random"].map(|name| place(find_ensemble(starts, name)?));
         Some(share_of_start(rest?, random?, theory))
     };
     const SHARE: &str = "of the distance from rest to the theory, with random free parts";
-    let chains = named(starts, "rest")?.ensemble.realisations;
+    let chains = find_ensemble(starts, "rest")?.ensemble.realisations;
     let table = Table::of("starts.against_theory", &[()], |()| chains)
         .computed_by(origin(share_of_start))
         .estimate("share", "1", SHARE, |()| share(|one| one.first().rise.half_height))
@@ -42,6 +42,6 @@ pub fn against_theory(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
 
 /// Returns the part that the start explains of the distance between theory and simulation.
 pub fn share_of_start(rest: Estimate, random: Estimate, theory: f64) -> Estimate {
-    let (moved, all) = (difference(random, rest), theory - rest.value);
-    with_error(moved.value / all, moved.error / all)
+    let (moved, distance) = (difference(random, rest), theory - rest.value);
+    with_error(moved.value / distance, moved.error / distance)
 }

@@ -16,20 +16,21 @@ pub const SECOND_SEED: Ensembles =
 const ABOVE: f64 = 0.2;
 const STICKING: f64 = 0.3;
 
+/// Returns the counts of the main sweep.
 pub fn main(results: &Results) -> Result<&Counted, Error> {
-    named(results.of(&SWEEP)?, SWEEP.name).ok_or(Error::NotRun(SWEEP.name))
+    find_ensemble(results.of(&SWEEP)?, SWEEP.name).ok_or(Error::NotRun(SWEEP.name))
 }
 
-fn tables(found: &Vec<Counted>) -> Vec<Table> {
-    let Some(sweep) = named(found, SWEEP.name) else { return Vec::new() };
+fn tables(counted: &Vec<Counted>) -> Vec<Table> {
+    let Some(sweep) = find_ensemble(counted, SWEEP.name) else { return Vec::new() };
     let mut total = Total::default();
     sweep.runs.iter().for_each(|row| total.add(&row.total));
     let [run, rare] = [run(sweep, &total), rare(sweep, &total)];
     vec![run, rows(sweep), rise_table(sweep), modes(sweep), rare, sticking()]
 }
 
-fn of_second_seed(found: &Vec<Counted>) -> Vec<Table> {
-    let table = Table::of("second_seed.rise", found, |sweep| sweep.ensemble.realisations)
+fn of_second_seed(counted: &Vec<Counted>) -> Vec<Table> {
+    let table = Table::of("second_seed.rise", counted, |sweep| sweep.ensemble.realisations)
         .count("seed", "master seed", |sweep| sweep.ensemble.seed)
         .computed_by(origin(Curve::new))
         .estimate("half_height", SIGMA, OF_ACTIVE, |sweep| sweep.first().rise.half_height);
@@ -63,11 +64,11 @@ fn run(sweep: &Counted, total: &Total) -> Table {
 /// Makes the table of means (of different gaps, of impacts, of masses) and shares at each σ.
 fn rows(sweep: &Counted) -> Table {
     const KEPT: &str = "share of the realisations with an impact in the window";
-    let kept = |row: &RisePoint| share(row.kept as u64, row.ran as u64);
+    let kept_share = |row: &RisePoint| share(row.kept as u64, row.ran as u64);
     Table::of("sweep.rows", &sweep.first().rows, |row| row.ran)
         .key("sigma", SIGMA, |row| row.sigma)
         .computed_by(origin(RisePoint::new))
-        .estimate("kept", "1", KEPT, kept)
+        .estimate("kept", "1", KEPT, kept_share)
         .estimate("mean_all", "1", "gaps with an impact, mean of all", |r| r.mean_all?.estimate())
         .over(|row| row.kept)
         .estimate("mean", "1", "gaps hit, mean of those with any", |row| row.mean?.estimate())
@@ -111,7 +112,8 @@ fn expected(total: &Total) -> [f64; 2] {
 fn rare(sweep: &Counted, total: &Total) -> Table {
     let below = sweep.runs.iter().filter(|row| row.sigma <= ABOVE);
     let contact_phases_below = below.map(|row| row.total.contact_phases).sum();
-    let [near, slow] = [&total.near[..], &total.slow].map(|all| all.last().copied().unwrap_or(0));
+    let [near, slow] =
+        [&total.near[..], &total.slow].map(|decades| decades.last().copied().unwrap_or(0));
     let [near_expected, slow_expected] = expected(total);
     Table::of("sweep.rare", &[()], |()| 0)
         .computed_by(origin(expected))
@@ -139,11 +141,13 @@ fn sticking() -> Table {
         .done()
 }
 
+/// Lists the σ at which the mode has an interval, with the interval.
 fn mode_intervals(curve: &Curve) -> impl Iterator<Item = (f64, [usize; 2])> {
     curve.rows.iter().filter_map(|row| Some((row.sigma, row.mode_interval?)))
 }
 
-/// Returns the σ between which the mode passes half of all gaps, by its bootstrap intervals.
+/// Returns the σ between which the mode passes half of all gaps, by its bootstrap intervals, or
+/// `None` if it does not pass.
 pub fn mode_half(curve: &Curve, gaps: usize) -> Option<[f64; 2]> {
     let half = gaps as f64 / 2.0;
     let intervals: Vec<(f64, [usize; 2])> = mode_intervals(curve).collect();

@@ -40,28 +40,28 @@ pub fn run(parameters: &TwoMassesParams, progress: &Progress) -> Result<TwoMasse
     let stage = progress.stage("two masses", directions as u64 + 1);
     // The last direction is the worst one.
     let drawn = (0..directions as u64).map(|index| parameters.directions.scenario(index).forcing);
-    let found = each(&stage, progress, drawn.chain([WORST.to_vec()]), |forcing| {
+    let searched = run_each(&stage, progress, drawn.chain([WORST.to_vec()]), |forcing| {
         thresholds(parameters, &forcing, progress)
     })?;
     let excess = |i: usize| {
-        let ratios = found[..directions].iter().map(|(_, ratios)| ratios[i]);
+        let ratios = searched[..directions].iter().map(|(_, ratios)| ratios[i]);
         ratios.fold([f64::INFINITY, 0.0], |[least, most], x| [least.min(x), most.max(x)])
     };
     Ok(TwoMasses {
         parameters: parameters.clone(),
         excess: (0..parameters.times.len()).map(excess).collect(),
-        violations: found.iter().map(|(violations, _)| violations).sum(),
+        violations: searched.iter().map(|(violations, _)| violations).sum(),
     })
 }
 
-pub fn tables(found: &TwoMasses) -> Vec<Table> {
-    let bound = Table::of("two_masses.bound", &[&found.parameters.directions], |_| 0)
+pub fn tables(two_masses: &TwoMasses) -> Vec<Table> {
+    let bound = Table::of("two_masses.bound", &[&two_masses.parameters.directions], |_| 0)
         .computed_by(origin(safe_force))
-        .real("force", SIGMA, 4, "below this two masses never hit", |of| safe_force(&of.chain))
-        .count("directions", "random directions of the forcing", |of| of.realisations as u64)
+        .real("force", SIGMA, 4, "below this two masses never hit", |runs| safe_force(&runs.chain))
+        .count("directions", "random directions of the forcing", |runs| runs.realisations as u64)
         .done();
     const GREATEST: &str = "largest of the least forces with an impact, over bounds";
-    let excess: Vec<_> = found.parameters.times.iter().zip(&found.excess).collect();
+    let excess: Vec<_> = two_masses.parameters.times.iter().zip(&two_masses.excess).collect();
     let excess = Table::of("two_masses.excess", &excess, |_| 0)
         .key("time", TIME, |(time, _)| time.floor())
         .computed_by(origin(run))
@@ -100,7 +100,7 @@ fn thresholds(
     };
     let latest = parameters.times.last().copied().unwrap_or(0.0);
     let violations = u64::from(hits(BELOW, latest)?);
-    let mut found = Vec::with_capacity(parameters.times.len());
+    let mut ratios = Vec::with_capacity(parameters.times.len());
     for &time in &parameters.times {
         let (mut quiet, mut hitting) = (BELOW, 2.0);
         while !hits(hitting, time)? {
@@ -115,7 +115,7 @@ fn thresholds(
                 quiet = middle;
             }
         }
-        found.push(hitting);
+        ratios.push(hitting);
     }
-    Ok((violations, found))
+    Ok((violations, ratios))
 }

@@ -16,7 +16,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let rows = results.table("sweep.rows")?;
     let swept = |column| rows.curve(&[], "sigma", column);
     let (all, means) = (swept("mean_all")?, means(results)?);
-    printed(&panel, comparison::at(&means, printed_threshold()).unwrap_or(0.0))?;
+    printed(&panel, comparison::interpolate(&means, printed_threshold()).unwrap_or(0.0))?;
     panel.curve(ALL.name, &all, ALL.line)?;
     panel.estimates(HIT.name, &rows.series(&[], "sigma", "mean")?, HIT.mark)?;
     panel.label(HIT.name, (panel.x.hi, n as f64), (-1, 3), RED)?;

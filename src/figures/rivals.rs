@@ -4,7 +4,7 @@ use super::encoding;
 use super::prelude::*;
 use crate::experiments::Measured;
 use crate::experiments::accuracy::race::Race;
-use crate::experiments::measured::What;
+use crate::experiments::measured::Subject;
 use crate::params::{MethodName, Setting};
 
 /// A point of a setting, with its interval if it has one.
@@ -101,7 +101,7 @@ pub fn all_by_method<T>(rows: &[T], point: impl Fn(&T) -> Option<(Setting, Point
 /// of an impact over the engine's, and the time up to which the run is right, at most its end.
 pub fn programs(measured: &Measured, masses: usize) -> Vec<(&str, Vec<(f64, f64)>)> {
     let mut found: Vec<(&str, Vec<(f64, f64)>)> = Vec::new();
-    let rows = measured.of(What::Engine).chain(measured.of(What::Peer));
+    let rows = measured.rows_about(Subject::Engine).chain(measured.rows_about(Subject::Peer));
     for row in rows.filter(|row| row.n == masses as u64 && row.chains == 1) {
         let time = row.microseconds_per_impact.zip(measured.engine(row));
         let Some(time) = time.map(|(time, engine)| time / engine) else { continue };

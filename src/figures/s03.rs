@@ -2,7 +2,7 @@
 
 use super::encoding::{FORCING, SHARE};
 use super::prelude::*;
-use crate::experiments::theory::comparison::at;
+use crate::experiments::theory::comparison::interpolate;
 use crate::experiments::{Results, sweep};
 use crate::params::printed_threshold;
 use literate::table::Table;
@@ -47,7 +47,12 @@ fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table, masses: u
         panel.unrecorded().estimates(&name, &marks, disc)?;
         let rising: Vec<_> = curve.into_iter().map(|(sigma, share)| (share, sigma)).collect();
         let (height, side) = if place == 0 { (0.3, (1, 1)) } else { (0.6, (-3, 0)) };
-        panel.label(&name, (at(&rising, height).unwrap_or(SIGMAS.0), height), side, colour)?;
+        panel.label(
+            &name,
+            (interpolate(&rising, height).unwrap_or(SIGMAS.0), height),
+            side,
+            colour,
+        )?;
     }
     let Some((sigma, share)) = kept.iter().rfind(|(_, share)| *share < 0.9) else { return Ok(()) };
     let leader = [(sigma + 0.001, share - 0.03), (sigma + 0.004, share - 0.1)];

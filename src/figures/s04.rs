@@ -3,7 +3,7 @@
 use super::encoding::{ALL, FORCING, HALF_HEIGHT, REST, SEEDS, THEORY, gaps_axis};
 use super::prelude::*;
 use crate::experiments::Results;
-use crate::experiments::theory::comparison::at;
+use crate::experiments::theory::comparison::interpolate;
 use crate::params::printed_threshold;
 use literate::table::Table;
 
@@ -38,7 +38,7 @@ fn counts(sheet: &Sheet, results: &Results) -> Drawn {
         curve.retain(|(sigma, _)| *sigma >= SIGMAS.0 && *sigma <= SIGMAS.1);
         panel.curve(look.name, &curve, look.line)?;
         let rising: Vec<_> = curve.into_iter().map(|(sigma, mean)| (mean, sigma)).collect();
-        let place = (at(&rising, height).unwrap_or(SIGMAS.0), height);
+        let place = (interpolate(&rising, height).unwrap_or(SIGMAS.0), height);
         panel.label(look.name, place, (-2, 0), GREEN)?;
     }
     let grown = results.table("seeds.means")?.series(&transient, "sigma", "grown")?;

@@ -23,7 +23,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let trials = results.of(&TRIALS)?;
     let scenes = &trials.parameters.scenes;
     let own = trials.parameters.settings.iter().enumerate().map(|(place, setting)| {
-        let found = trials.found.iter().map(|found| &found[place]);
+        let found = trials.trials.iter().map(|found| &found[place]);
         (setting.method.title(), found.collect::<Vec<_>>())
     });
     let others = results.of(&PROGRAMS)?.iter().flat_map(|program| &program.settings);
@@ -44,7 +44,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let panel = sheet.panel(frame, x, y.without_numbers())?;
     let name = words(SMALL, INK, HPos::Left, VPos::Top);
     for (row, scene) in (0..).zip(scenes) {
-        sheet.area.draw_text(&scene.what, &name, (frame.left + 90, TOP + ROW * row + 60))?;
+        sheet.area.draw_text(&scene.title, &name, (frame.left + 90, TOP + ROW * row + 60))?;
     }
     let settings: usize = groups.iter().map(|group| group.1.len()).sum();
     let width = (frame.right - frame.left - 330 - 90 * groups.len() as i32) / settings as i32;
@@ -77,7 +77,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         "A row for each of {count} scenes, with a tile for each setting of {} methods and programs, filled as far as its cases fail. The \
          engine, at the left, is right in all cases of {} scenes.",
         groups.len(),
-        trials.found.iter().filter(|found| right(&found[0]) == found[0].len()).count(),
+        trials.trials.iter().filter(|found| right(&found[0]) == found[0].len()).count(),
     );
     Ok(sheet.finish("Where methods and programs fail", description))
 }

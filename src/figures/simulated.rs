@@ -45,5 +45,5 @@ pub fn reaches(points: &[(f64, f64)], height: f64) -> (f64, f64) {
 
 /// The value of a curve at some σ in words.
 pub fn at(points: &[(f64, f64)], sigma: f64) -> String {
-    comparison::at(points, sigma).map_or("nothing".into(), |value| short(value, 3))
+    comparison::interpolate(points, sigma).map_or("nothing".into(), |value| short(value, 3))
 }

@@ -8,63 +8,108 @@ use impact_chain::{Chain, Protocol};
 use literate::experiments::Profile;
 use serde::{Deserialize, Serialize};
 
+/// The settings of a method in each experiment, coarse to fine; empty where it has no part.
+struct MethodSettings {
+    method: MethodName,
+    /// In the race against the true motion, and the one of the quick profile.
+    race: &'static [f64],
+    quick_race: f64,
+    /// In the scenes where methods fail.
+    scenes: &'static [f64],
+    /// Against the number of masses.
+    scale: &'static [f64],
+    /// For the mean, each with its number of chains at each of [`MEANS`]. The engine and the
+    /// cheapest rivals have so many that the 95 % interval is about half of what is asked; less is
+    /// enough for one that is far off, and for one that takes longer than another that suffices.
+    means: &'static [(f64, [usize; 4])],
+}
+
+/// Settings that several methods have.
 const STEPS: &[f64] = &[1e-1, 1e-2, 1e-3, 1e-4];
-
-/// Settings of each method of [`MethodName::ALL`] in the race, coarse to fine.
-const RACE: [&[f64]; 8] = [
-    &[0.0],
-    &[0.5, 0.25, 0.1, 0.03, 0.01],
-    &[1e-3, 1e-6, 1e-9, 1e-12, 1e-14],
-    &[1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13],
-    STEPS,
-    STEPS,
-    STEPS,
-    &[0.1, 0.03, 0.01],
-];
-
-/// The same in the quick profile.
-const QUICK: [&[f64]; 8] = [&[0.0], &[0.1], &[1e-9], &[1e-3], &[0.1], &[0.1], &[0.1], &[0.03]];
-
-/// A coarse and a fine tolerance, and step, in the scenes where methods fail.
-const TOLERANCES: &[f64] = &[1e-6, 1e-12];
 const FEW_STEPS: &[f64] = &[1e-2, 1e-4];
-
-const SCENES: [&[f64]; 7] =
-    [&[0.0], &[0.1, 0.01], TOLERANCES, TOLERANCES, FEW_STEPS, FEW_STEPS, FEW_STEPS];
-
-/// The same against the number of masses, without the last methods.
-const SCALE: [&[f64]; 6] = [&[0.0], &[0.25], &[1e-12], &[1e-6], &[0.01], &[0.01]];
+const TOLERANCES: &[f64] = &[1e-6, 1e-12];
 
 /// σ of the chains whose mean is compared, and the time T that is dropped: up the rise, and late.
 const MEANS: [(f64, f64); 4] = [(0.11, 500.0), (0.12, 500.0), (0.14, 500.0), (0.115, 2000.0)];
 
-/// The settings there, each with its number of chains at each of [`MEANS`]. The engine and the
-/// cheapest rivals have so many that the 95 % interval is about half of what is asked; less is
-/// enough for one that is far off, and for one that takes longer than another that suffices.
-const BIAS: [&[(f64, [usize; 4])]; 8] = [
-    &[(0.0, [3000, 1000, 1600, 1500])],
-    &[(0.25, [100, 60, 40, 20])],
-    &[(1e-2, [40, 40, 20, 20]), (1e-12, [100, 40, 30, 20])],
-    &[(1e-3, [8, 0, 0, 0]), (1e-6, [4, 4, 4, 0])],
-    &[(0.1, [100, 60, 60, 20]), (0.01, [10, 10, 10, 0])],
-    &[(0.3, [400, 400, 200, 100]), (0.1, [400, 100, 400, 40]), (0.01, [10, 10, 10, 0])],
-    &[(0.1, [40, 40, 20, 20]), (0.01, [10, 10, 10, 0])],
-    &[
-        (0.5, [3000, 1000, 1600, 1500]),
-        (0.4, [3000, 1000, 1600, 1500]),
-        (0.3, [3000, 1000, 1600, 1500]),
-        (0.2, [3000, 1000, 1600, 1500]),
-        (0.1, [3000, 1000, 1600, 1500]),
-    ],
+/// Chains at each of [`MEANS`] of the engine and of the cheapest rival.
+const MANY: [usize; 4] = [3000, 1000, 1600, 1500];
+
+/// The methods in the order of the tables.
+const METHODS: [MethodSettings; 8] = [
+    MethodSettings {
+        method: MethodName::Certified,
+        race: &[0.0],
+        quick_race: 0.0,
+        scenes: &[0.0],
+        scale: &[0.0],
+        means: &[(0.0, MANY)],
+    },
+    MethodSettings {
+        method: MethodName::Sampled,
+        race: &[0.5, 0.25, 0.1, 0.03, 0.01],
+        quick_race: 0.1,
+        scenes: &[0.1, 0.01],
+        scale: &[0.25],
+        means: &[(0.25, [100, 60, 40, 20])],
+    },
+    MethodSettings {
+        method: MethodName::Advancement,
+        race: &[1e-3, 1e-6, 1e-9, 1e-12, 1e-14],
+        quick_race: 1e-9,
+        scenes: TOLERANCES,
+        scale: &[1e-12],
+        means: &[(1e-2, [40, 40, 20, 20]), (1e-12, [100, 40, 30, 20])],
+    },
+    MethodSettings {
+        method: MethodName::RungeKutta,
+        race: &[1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13],
+        quick_race: 1e-3,
+        scenes: TOLERANCES,
+        scale: &[1e-6],
+        means: &[(1e-3, [8, 0, 0, 0]), (1e-6, [4, 4, 4, 0])],
+    },
+    MethodSettings {
+        method: MethodName::MoreauJean,
+        race: STEPS,
+        quick_race: 0.1,
+        scenes: FEW_STEPS,
+        scale: &[0.01],
+        means: &[(0.1, [100, 60, 60, 20]), (0.01, [10, 10, 10, 0])],
+    },
+    MethodSettings {
+        method: MethodName::Verlet,
+        race: STEPS,
+        quick_race: 0.1,
+        scenes: FEW_STEPS,
+        scale: &[0.01],
+        means: &[(0.3, [400, 400, 200, 100]), (0.1, [400, 100, 400, 40]), (0.01, [10, 10, 10, 0])],
+    },
+    MethodSettings {
+        method: MethodName::Penalty,
+        race: STEPS,
+        quick_race: 0.1,
+        scenes: FEW_STEPS,
+        scale: &[],
+        means: &[(0.1, [40, 40, 20, 20]), (0.01, [10, 10, 10, 0])],
+    },
+    MethodSettings {
+        method: MethodName::VerletAbreast,
+        race: &[0.1, 0.03, 0.01],
+        quick_race: 0.03,
+        scenes: &[],
+        scale: &[],
+        means: &[(0.5, MANY), (0.4, MANY), (0.3, MANY), (0.2, MANY), (0.1, MANY)],
+    },
 ];
 
-fn all<T: Copy>(values: &[&[T]]) -> Vec<(MethodName, T)> {
-    let all = MethodName::ALL.into_iter().zip(values);
-    all.flat_map(|(method, values)| values.iter().map(move |value| (method, *value))).collect()
-}
-
-fn settings(values: &[&[f64]]) -> Vec<Setting> {
-    all(values).into_iter().map(|(method, value)| Setting { method, value, stop: 0.0 }).collect()
+/// Lists some settings of all methods.
+fn settings(values: impl Fn(&'static MethodSettings) -> &'static [f64]) -> Vec<Setting> {
+    let own = |one: &'static MethodSettings| {
+        let MethodSettings { method, .. } = *one;
+        values(one).iter().map(move |&value| Setting { method, value, stop: 0.0 })
+    };
+    METHODS.iter().flat_map(own).collect()
 }
 
 /// Random stream and seed of the chains on which other programs are measured.
@@ -88,31 +133,33 @@ impl RaceParams {
     pub fn new(profile: Profile) -> Self {
         let quick = profile == Profile::Quick;
         let (until, at_least, chains, segments, realisations) =
-            if quick { (30.0, 10.0, 2, 12, 6) } else { (250.0, 20.0, 12, 1200, 60) };
+            if quick { (30.0, 10.0, 2, 12, 6) } else { (250.0, 20.0, 16, 1200, 60) };
         let chain = Chain { masses: 20, ..Chain::default() };
         let (stream, seed) = (BENCH.0.into(), BENCH.1);
         let growth = Runs { chain, sigma: 0.3, until: 300.0, realisations, stream, seed };
-        let settings = settings(if quick { &QUICK } else { &RACE });
+        let race = |one: &'static MethodSettings| {
+            if quick { std::slice::from_ref(&one.quick_race) } else { one.race }
+        };
+        let settings = settings(race);
         RaceParams { growth, until, at_least, chains, segments, settings }
     }
 }
 
-/// Least rebound speeds there, each with the fine setting of a method that locates impacts.
+/// Least rebound speeds in the scenes, each with the fine setting of a method that locates impacts.
 const STOPS: [f64; 2] = [1e-3, 1e-4];
 
-/// Returns the settings there: methods from coarse to fine, only coarse in the quick profile, then
-/// with the least rebound speeds.
+/// Returns the settings in the scenes: each method from coarse to fine, in the quick profile only
+/// coarse, and then with the least rebound speeds.
 pub fn trial_settings(profile: Profile) -> Vec<Setting> {
-    let few =
-        |values: &'static [f64]| if profile == Profile::Quick { &values[..1] } else { values };
-    let mut all = settings(&SCENES.map(few));
+    let most = if profile == Profile::Quick { 1 } else { usize::MAX };
+    let mut settings = settings(|one| &one.scenes[..one.scenes.len().min(most)]);
     for method in MethodName::ALL.into_iter().filter(|method| method.locates_impacts()) {
-        if let Some(fine) = all.iter().rposition(|setting| setting.method == method) {
-            let stopping = STOPS.map(|stop| Setting { stop, ..all[fine] });
-            all.splice(fine + 1..fine + 1, stopping);
+        if let Some(fine) = settings.iter().rposition(|setting| setting.method == method) {
+            let stopping = STOPS.map(|stop| Setting { stop, ..settings[fine] });
+            settings.splice(fine + 1..fine + 1, stopping);
         }
     }
-    all
+    settings
 }
 
 /// Counted work of an impact against the number of masses.
@@ -131,7 +178,7 @@ impl ScaleParams {
             Profile::Full => (vec![10, 30, 100, 300, 1000, 10_000], 300),
             Profile::Quick => (vec![10, 30, 100, 1000], 30),
         };
-        ScaleParams { sigma: 0.3, masses, rivals, settings: settings(&SCALE) }
+        ScaleParams { sigma: 0.3, masses, rivals, settings: settings(|one| one.scale) }
     }
 }
 
@@ -156,6 +203,7 @@ pub struct Means {
 const NUDGE: f64 = 1.0 + 4.0 * f64::EPSILON;
 
 impl Means {
+    /// Returns the window in which gaps are counted.
     pub fn window(&self) -> Protocol {
         let Means { transient, .. } = *self;
         Protocol { transient, window: self.chains.until - transient }
@@ -180,15 +228,18 @@ impl Means {
 impl BiasParams {
     pub fn new(profile: Profile) -> Self {
         let quick = profile == Profile::Quick;
-        let means = MEANS.iter().enumerate().skip(usize::from(quick)).map(|(i, &at)| {
-            let (sigma, transient) = if quick { (at.0, 100.0) } else { at };
+        let means = MEANS.iter().enumerate().skip(usize::from(quick)).map(|(i, &place)| {
+            let (sigma, transient) = if quick { (place.0, 100.0) } else { place };
             let window = if quick { 100.0 } else { Protocol::default().window };
-            let with = |(method, (value, chains)): (MethodName, (f64, [usize; 4]))| {
-                let chains = if quick { chains[i].min(2) } else { chains[i] };
-                (Setting { method, value, stop: 0.0 }, chains)
-            };
-            let settings = all(&BIAS).into_iter().map(with).filter(|(_, chains)| *chains > 0);
-            let settings: Vec<(Setting, usize)> = settings.collect();
+            let mut settings = Vec::new();
+            for MethodSettings { method, means, .. } in &METHODS {
+                settings.extend(means.iter().filter(|(_, chains)| chains[i] > 0).map(
+                    |&(value, chains)| {
+                        let chains = if quick { chains[i].min(2) } else { chains[i] };
+                        (Setting { method: *method, value, stop: 0.0 }, chains)
+                    },
+                ));
+            }
             let (chain, until, stream) = (Chain::default(), transient + window, "sweep".into());
             let realisations = settings[0].1;
             let chains = Runs { chain, sigma, until, realisations, stream, seed: SEED };
@@ -197,13 +248,14 @@ impl BiasParams {
         BiasParams { means: means.collect() }
     }
 
+    /// Counts the runs of all methods.
     pub fn runs(&self) -> u64 {
-        let settings = self.means.iter().flat_map(|of| &of.settings);
+        let settings = self.means.iter().flat_map(|means| &means.settings);
         settings.map(|(_, chains)| *chains as u64).sum::<u64>() + self.engine_again()
     }
 
     /// Counts the chains that the engine runs again, to know what chaos makes of a rounding.
     fn engine_again(&self) -> u64 {
-        self.means.iter().map(|of| of.chains.realisations as u64).sum()
+        self.means.iter().map(|means| means.chains.realisations as u64).sum()
     }
 }

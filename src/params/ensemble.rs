@@ -1,8 +1,8 @@
 //! Defines an ensemble: random chains at several σ, and the windows in which they are counted.
 
-use impact_chain::abreast::{Abreast, Realisation};
+use impact_chain::abreast::{Abreast, Counting, Realisation};
 use impact_chain::counts::{Counts, Watch};
-use impact_chain::{Chain, Engine, Error, Initial, NormalPairs, Protocol, Scenario};
+use impact_chain::{Chain, Engine, Error, Initial, NormalPairs, Protocol, Scenario, Seed};
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow::{Break, Continue};
 use std::ops::Range;
@@ -40,7 +40,7 @@ pub struct Ensemble {
     pub first: u64,
     pub realisations: usize,
     pub beyond: Option<Beyond>,
-    /// Share of overlapping starts above which a σ has no part in the places of the rise.
+    /// Share of overlapping starts above which the row of a σ does not count for the rise.
     pub most_rejected: f64,
     /// Pieces of about equal length of a chain, of which each is counted like a realisation.
     pub pieces: usize,
@@ -68,6 +68,7 @@ impl Default for Ensemble {
 }
 
 impl Ensemble {
+    /// Returns the number of realisations at a σ.
     pub fn realisations_at(&self, sigma: f64) -> usize {
         self.beyond(sigma).and_then(|less| less.realisations).unwrap_or(self.realisations)
     }
@@ -82,8 +83,8 @@ impl Ensemble {
         self.beyond.filter(|less| sigma > less.above)
     }
 
-    /// Whether so few of these starts at a σ overlap that it has a part in the places of the rise.
-    pub fn compares(&self, sigma: f64, rejected: usize) -> bool {
+    /// Whether so few starts at a σ were rejected for overlap that its row counts for the rise.
+    pub fn is_comparable(&self, sigma: f64, rejected: usize) -> bool {
         rejected as f64 <= self.most_rejected * self.realisations_at(sigma) as f64
     }
 
@@ -99,49 +100,41 @@ impl Ensemble {
         (self.chain.masses as f64 * (1.0 + impacts)) as u64
     }
 
-    /// Prepares its realisations at a σ.
-    pub fn at(&self, sigma: f64) -> Realisations<'_> {
+    /// Prepares the simulation of its realisations at a σ.
+    pub fn prepare(&self, sigma: f64) -> Realisations<'_> {
         let heating = self.heating.map(|heating| Abreast::new(&self.chain, &[], heating.time));
-        let counting = Abreast::new(&self.chain, &self.protocols, self.until(sigma));
+        let counting = Counting::new(&self.chain, &self.protocols, self.until(sigma));
         Realisations { ensemble: self, sigma, heating, counting }
     }
 
-    /// Counts the impacts of a realisation by the engine; incomplete when `stopped` returns true.
-    fn by_engine(
-        &self,
-        sigma: f64,
-        index: u64,
-        stopped: &dyn Fn() -> bool,
-    ) -> Result<Counts, Error> {
-        let mut watch = Watch::new(&self.chain, &self.protocols);
-        let engine = self.started(sigma, index, stopped);
-        let mut counts = watch.run(engine, index, self.until(sigma), stopped)?;
-        self.cut_all(&mut counts, |window| watch.hit(window));
-        Ok(counts)
-    }
-
     /// Counts the gaps of each piece in each window, instead of those of the chain.
-    fn cut_all(&self, counts: &mut Counts, hit: impl Fn(&Protocol) -> Option<Vec<bool>>) {
+    fn count_pieces(&self, counts: &mut Counts, watch: &Watch) {
         for (distinct, window) in counts.distinct.iter_mut().zip(&self.protocols) {
-            *distinct = match hit(window).filter(|_| distinct[0].is_some()) {
-                Some(hit) => self.cut(&hit),
+            *distinct = match watch.gaps_hit(window).filter(|_| distinct[0].is_some()) {
+                Some(hit) => self.piece_counts(&hit),
                 None => vec![None; self.pieces],
             };
         }
     }
 
-    fn cut(&self, hit: &[bool]) -> Vec<Option<u32>> {
+    /// Counts the gaps with an impact in each piece.
+    fn piece_counts(&self, hit: &[bool]) -> Vec<Option<u32>> {
         let ends = |piece| piece * hit.len() / self.pieces;
         let count = |piece| hit[ends(piece)..ends(piece + 1)].iter().map(|&hit| u32::from(hit));
         (0..self.pieces).map(|piece| Some(count(piece).sum())).collect()
     }
 
     fn normals(&self, index: u64) -> NormalPairs {
-        NormalPairs::new(&self.stream, self.seed, index)
+        NormalPairs::new(&self.stream, Seed(self.seed), index)
     }
 
     /// Returns an engine at the time from which transients are measured.
-    fn started(&self, sigma: f64, index: u64, stopped: &dyn Fn() -> bool) -> Result<Engine, Error> {
+    fn start_engine(
+        &self,
+        sigma: f64,
+        index: u64,
+        stopped: &dyn Fn() -> bool,
+    ) -> Result<Engine, Error> {
         let Some(Heating { sigma: hot, time }) = self.heating else {
             return Engine::new(&Scenario::draw(&self.chain, sigma, &mut self.normals(index)));
         };
@@ -152,13 +145,13 @@ impl Ensemble {
     }
 }
 
-/// Realisations at one σ, which are simulated side by side; the engine does those that cannot.
+/// Realisations at one σ, which are simulated side by side, or else one by one by the engine.
 pub struct Realisations<'a> {
     ensemble: &'a Ensemble,
     sigma: f64,
     /// The run before the transient, if there is one.
     heating: Option<Option<Abreast>>,
-    counting: Option<Abreast>,
+    counting: Counting,
 }
 
 impl Realisations<'_> {
@@ -168,46 +161,43 @@ impl Realisations<'_> {
         indices: Range<u64>,
         stopped: &dyn Fn() -> bool,
     ) -> Result<Vec<Counts>, Error> {
-        let one = self.ensemble;
-        let indices: Vec<u64> = indices.map(|index| one.first + index).collect();
-        let mut counts = vec![None; indices.len()];
-        if let Some(counting) = &self.counting {
-            let (places, starts): (Vec<usize>, Vec<Scenario>) =
-                self.starts(&indices, stopped).into_iter().unzip();
-            for (place, run) in places.into_iter().zip(counting.run(&starts, stopped)) {
-                counts[place] = run.map(|mut run| {
-                    let mut counts = run.counts();
-                    one.cut_all(&mut counts, |window| run.hit(window));
-                    counts
-                });
-            }
-        }
-        let by_engine = |index| one.by_engine(self.sigma, index, stopped);
-        let all = indices.into_iter().zip(counts);
-        all.map(|(index, counts)| counts.map_or_else(|| by_engine(index), Ok)).collect()
+        let ensemble = self.ensemble;
+        let starts = self.starts(indices.map(|index| ensemble.first + index), stopped);
+        let engine = |index| ensemble.start_engine(self.sigma, index, stopped);
+        let runs = self.counting.run(starts, engine, stopped)?.into_iter();
+        let cut = |(mut counts, watch): (Counts, Watch)| {
+            ensemble.count_pieces(&mut counts, &watch);
+            counts
+        };
+        Ok(runs.map(cut).collect())
     }
 
-    /// Lists the scenarios from which transients are measured, each with its place; without those
-    /// whose way there has to be simulated by the engine.
-    fn starts(&self, indices: &[u64], stopped: &dyn Fn() -> bool) -> Vec<(usize, Scenario)> {
-        let one = self.ensemble;
-        let draw = |sigma, index: &u64| Scenario::draw(&one.chain, sigma, &mut one.normals(*index));
-        let Some((hot, heating)) = one.heating.zip(self.heating.as_ref()) else {
-            return indices.iter().map(|index| draw(self.sigma, index)).enumerate().collect();
+    /// Lists the scenarios from which transients are measured, or `None` for those whose way there
+    /// has to be simulated by the engine, each with its index.
+    fn starts(
+        &self,
+        indices: impl Iterator<Item = u64> + Clone,
+        stopped: &dyn Fn() -> bool,
+    ) -> Vec<(u64, Option<Scenario>)> {
+        let Ensemble { chain, heating, .. } = self.ensemble;
+        let draw = |sigma, index| Scenario::draw(chain, sigma, &mut self.ensemble.normals(index));
+        let Some((hot, heating)) = heating.zip(self.heating.as_ref()) else {
+            return indices.map(|index| (index, Some(draw(self.sigma, index)))).collect();
         };
-        let Some(heating) = heating else { return Vec::new() };
-        let scenarios: Vec<_> = indices.iter().map(|index| draw(hot.sigma, index)).collect();
-        let runs = heating.run(&scenarios, stopped).into_iter().zip(&scenarios).enumerate();
-        let start = |(place, (run, scenario)): (usize, (Option<Realisation>, &Scenario))| {
-            let free = run?.free_parts(&one.chain);
-            Some((place, lowered(scenario, &free, hot.time, self.sigma / hot.sigma)))
+        let Some(heating) = heating else { return indices.map(|index| (index, None)).collect() };
+        let scenarios: Vec<_> = indices.clone().map(|index| draw(hot.sigma, index)).collect();
+        let start = |(run, scenario): (Option<Realisation>, &Scenario)| {
+            let free = run?.free_parts(chain);
+            Some(lowered(scenario, &free, hot.time, self.sigma / hot.sigma))
         };
-        runs.filter_map(start).collect()
+        let runs = heating.run(&scenarios, stopped).into_iter().zip(&scenarios);
+        indices.zip(runs.map(start)).collect()
     }
 }
 
-/// Returns the continuation from `time` when forces change by `factor`: phases advance by it, and
-/// `free` takes up the change of the forced response, so that the motion is continuous.
+/// Returns the scenario that continues a motion from `time` with all forces multiplied by `factor`:
+/// the phases of the forces advance by `time`, and the free parts take up the change of the forced
+/// response, so that positions and velocities are continuous.
 pub fn lowered(scenario: &Scenario, free: &[[f64; 2]], time: f64, factor: f64) -> Scenario {
     let (omega, frequency) = (scenario.natural_frequency, scenario.forcing_frequency);
     let mut parts = advanced(free, omega * time);
@@ -221,6 +211,7 @@ pub fn lowered(scenario: &Scenario, free: &[[f64; 2]], time: f64, factor: f64) -
     Scenario { initial: Initial::Free(parts), forcing, ..scenario.clone() }
 }
 
+/// Returns pairs of cosine and sine amplitudes with their phases advanced by an angle.
 fn advanced(pairs: &[[f64; 2]], angle: f64) -> Vec<[f64; 2]> {
     let (sin, cos) = pxfm::f_sincos(angle);
     pairs.iter().map(|[a, b]| [a * cos + b * sin, b * cos - a * sin]).collect()

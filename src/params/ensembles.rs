@@ -6,9 +6,9 @@ use super::grid::Grid;
 use impact_chain::{Boundary, Chain, Protocol, Start};
 use literate::experiments::Profile;
 
-/// Windows (T, T + W] for all of these T and W, transients outer.
-fn windows(transients: &[f64], windows: &[f64]) -> Vec<Protocol> {
-    let after = |&transient| windows.iter().map(move |&window| Protocol { transient, window });
+/// Lists the windows (T, T + W] of all transients T, each with all widths W.
+fn windows(transients: &[f64], widths: &[f64]) -> Vec<Protocol> {
+    let after = |&transient| widths.iter().map(move |&window| Protocol { transient, window });
     transients.iter().flat_map(after).collect()
 }
 
@@ -164,13 +164,13 @@ pub fn branches(profile: Profile) -> Vec<Ensemble> {
             ],
         ),
     };
-    let mut all = Vec::new();
+    let mut ensembles = Vec::new();
     for &(lengths, heating, [from, to, step], transients) in sizes {
         for &masses in lengths {
             let start = if heating.is_some() { "above" } else { "rest" };
             let name = format!("{start}, n = {masses}, σ from {}", f64::from(from) / 1e4);
             let sigmas = Grid::default().and(from, to, step as usize, 10_000);
-            all.push(Ensemble {
+            ensembles.push(Ensemble {
                 chain: Chain { masses, ..Chain::default() },
                 heating,
                 protocols: windows(transients, &[200.0]),
@@ -179,7 +179,7 @@ pub fn branches(profile: Profile) -> Vec<Ensemble> {
             });
         }
     }
-    all
+    ensembles
 }
 
 /// Chains of several restitutions, each at the σ where its half height may lie.
@@ -199,17 +199,17 @@ pub fn restitution(profile: Profile) -> Vec<Ensemble> {
         ),
         Profile::Quick => (vec![(&[0.0, 0.8], from(9, 15, 6).and(30, 60, 30, 100))], 2),
     };
-    let mut all = Vec::new();
+    let mut ensembles = Vec::new();
     for (restitutions, sigmas) in cases {
         for &restitution in restitutions {
-            all.push(Ensemble {
+            ensembles.push(Ensemble {
                 chain: Chain { restitution, ..Chain::default() },
                 stream: "restitution".into(),
                 ..paper(&format!("r = {restitution}"), sigmas.clone(), realisations)
             });
         }
     }
-    all
+    ensembles
 }
 
 /// Chains from rest for the jump of the mode, in each window with T + W ≤ 700 of the map, and rings

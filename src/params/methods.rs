@@ -34,12 +34,16 @@ impl MethodName {
     ];
 
     /// Returns the method with its step or tolerance, and a least rebound speed if it can have one.
-    pub fn with(self, value: f64, stop: f64) -> Box<dyn Method> {
+    pub fn with_setting(self, value: f64, stop: f64) -> Box<dyn Method> {
         match self {
             MethodName::Certified => Box::new(Certified),
-            MethodName::Sampled => Box::new(Sampled { step: value, stop }),
-            MethodName::Advancement => Box::new(Advancement { tolerance: value, stop }),
-            MethodName::RungeKutta => Box::new(RungeKutta { tolerance: value, stop }),
+            MethodName::Sampled => Box::new(Sampled { step: value, least_rebound: stop }),
+            MethodName::Advancement => {
+                Box::new(Advancement { tolerance: value, least_rebound: stop })
+            }
+            MethodName::RungeKutta => {
+                Box::new(RungeKutta { tolerance: value, least_rebound: stop })
+            }
             MethodName::MoreauJean => Box::new(MoreauJean { step: value }),
             MethodName::Verlet => Box::new(Verlet { step: value }),
             MethodName::Penalty => Box::new(Penalty { step: value }),
@@ -48,10 +52,12 @@ impl MethodName {
         }
     }
 
+    /// Returns its name in results and on the command line.
     pub fn id(self) -> &'static str {
-        self.with(0.0, 0.0).name()
+        self.with_setting(0.0, 0.0).name()
     }
 
+    /// Returns its name in tables.
     pub fn title(self) -> &'static str {
         match self {
             MethodName::Certified => "engine",
@@ -94,15 +100,16 @@ impl Setting {
             method if method.has_tolerance() => "tol",
             _ => "h",
         };
-        let shown = |value: f64| {
+        let decimal = |value: f64| {
             if value < 0.01 { format!("{value:e}") } else { value.to_string() }
         };
         let stop =
-            if self.stop > 0.0 { format!(", stop = {}", shown(self.stop)) } else { "".into() };
-        format!("{}, {letter} = {}{stop}", self.method.title(), shown(self.value))
+            if self.stop > 0.0 { format!(", stop = {}", decimal(self.stop)) } else { "".into() };
+        format!("{}, {letter} = {}{stop}", self.method.title(), decimal(self.value))
     }
 
+    /// Returns the method with this setting.
     pub fn method(self) -> Box<dyn Method> {
-        self.method.with(self.value, self.stop)
+        self.method.with_setting(self.value, self.stop)
     }
 }

@@ -35,13 +35,15 @@ impl NucleationParams {
     /// Lists the runs, length by length and for each σ.
     pub fn runs(&self) -> impl Iterator<Item = Runs> {
         let until = self.times.last().copied().unwrap_or(0.0);
-        let both = self.lengths.iter().flat_map(|of| self.sigmas.iter().map(move |at| (*of, *at)));
-        both.map(move |((masses, realisations), sigma)| {
+        let cases = self.lengths.iter();
+        let cases = cases.flat_map(|length| self.sigmas.iter().map(move |sigma| (*length, *sigma)));
+        cases.map(move |((masses, realisations), sigma)| {
             let chain = Chain { masses, ..Chain::default() };
             Runs { chain, sigma, until, realisations, stream: "nucleation".into(), seed: SEED }
         })
     }
 
+    /// Counts the chains of all lengths and σ.
     pub fn chains(&self) -> u64 {
         self.runs().map(|runs| runs.realisations as u64).sum()
     }

@@ -2,10 +2,11 @@
 
 use super::chosen::{SEED, printed_threshold};
 use impact_chain::{Chain, Scenario};
-use impact_numerics::random::NormalPairs;
+use impact_numerics::random::{NormalPairs, Seed};
 use literate::experiments::Profile;
 use serde::{Deserialize, Serialize};
 
+/// Equal chains under random forces of one σ.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Runs {
     pub chain: Chain,
@@ -17,22 +18,24 @@ pub struct Runs {
 }
 
 impl Runs {
-    /// Twins that differ in the last bit of every amplitude.
+    /// Returns the runs whose twins differ in the last bit of every amplitude.
     pub fn horizon(profile: Profile) -> Self {
         let realisations = if profile == Profile::Quick { 10 } else { 100 };
         let (chain, stream) = (Chain::default(), "horizon".into());
         Runs { chain, sigma: 0.2, until: 500.0, realisations, stream, seed: SEED }
     }
 
-    /// Runs at the printed threshold; the first with an impact in its last tenth is recorded.
+    /// Returns runs at the printed threshold, of which the first with an impact in its last tenth
+    /// is recorded.
     pub fn spacetime(profile: Profile) -> Self {
         let until = if profile == Profile::Quick { 400.0 } else { 4000.0 };
         let (chain, stream) = (Chain::default(), "space-time".into());
         Runs { chain, sigma: printed_threshold(), until, realisations: 1000, stream, seed: SEED }
     }
 
+    /// Draws the forces of a realisation.
     pub fn scenario(&self, index: u64) -> Scenario {
-        let mut normals = NormalPairs::new(&self.stream, self.seed, index);
+        let mut normals = NormalPairs::new(&self.stream, Seed(self.seed), index);
         Scenario::draw(&self.chain, self.sigma, &mut normals)
     }
 }

@@ -2,7 +2,7 @@
 
 use impact_chain::mode_jump::{Histogram, Sample, mode_jump};
 use impact_chain::{Counts, Engine, Scenario, State};
-use impact_numerics::random::NormalPairs;
+use impact_numerics::random::{NormalPairs, Seed};
 use impact_paper::experiments::{Progress, ensembles::CUTTING};
 use impact_paper::params::{Beyond, Chain, Ensemble, Protocol, Start, lowered};
 
@@ -17,7 +17,7 @@ fn small() -> Ensemble {
 }
 
 fn run(ensemble: &Ensemble, sigma: f64, realisations: u64) -> Counts {
-    ensemble.at(sigma).count(0..realisations, &|| false).unwrap().into_iter().collect()
+    ensemble.prepare(sigma).count(0..realisations, &|| false).unwrap().into_iter().collect()
 }
 
 #[test]
@@ -63,8 +63,8 @@ fn where_many_starts_overlap_there_is_no_place_of_the_rise() {
         ..Ensemble::default()
     };
     let parts = vec![vec![overlapping(0)], vec![overlapping(10)]];
-    let found = (CUTTING.join)(&vec![ensemble], parts, &Progress::silent()).unwrap();
-    let curve = found[0].first();
+    let counted = (CUTTING.join)(&vec![ensemble], parts, &Progress::silent()).unwrap();
+    let curve = counted[0].first();
     assert_eq!((curve.rise.half_height_all, curve.rows[1].ran), (None, 6));
 }
 
@@ -78,8 +78,8 @@ fn the_rise_lies_where_it_was_measured_elsewhere() {
         ..Ensemble::default()
     };
     assert_eq!(ensemble.chain.start, Start::Rest);
-    let found = CUTTING.run(&vec![ensemble], "test", &Progress::silent()).unwrap();
-    let rise = &found[0].first().rise;
+    let counted = CUTTING.run(&vec![ensemble], "test", &Progress::silent()).unwrap();
+    let rise = &counted[0].first().rise;
     let half = rise.half_height.unwrap();
     // Four standard errors of both together; a wrong law of impact moves it by ten.
     let error = (half.error * half.error + 4e-4 * 4e-4).sqrt();
@@ -93,11 +93,11 @@ fn the_rise_lies_where_it_was_measured_elsewhere() {
 #[test]
 fn positions_and_velocities_are_continuous_when_the_force_is_lowered() {
     let chain = Chain { masses: 5, ..Chain::default() };
-    let scenario = Scenario::draw(&chain, 0.05, &mut NormalPairs::new("history", 1, 1));
+    let scenario = Scenario::draw(&chain, 0.05, &mut NormalPairs::new("history", Seed(1), 1));
     let (mut engine, time) = (Engine::new(&scenario).unwrap(), 7.3);
     assert_eq!(engine.impacts(time).unwrap(), []);
     let before = engine.state(time).unwrap();
-    let after = State::of(&lowered(&scenario, &engine.free_parts(), time, 0.4));
+    let after = State::from_scenario(&lowered(&scenario, &engine.free_parts(), time, 0.4));
     let near = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-14);
     assert!(near(&before.positions, &after.positions), "{before:?} {after:?}");
     assert!(near(&before.velocities, &after.velocities), "{before:?} {after:?}");
@@ -107,15 +107,12 @@ fn positions_and_velocities_are_continuous_when_the_force_is_lowered() {
 fn the_mode_jumps_where_it_was_measured_elsewhere() {
     // A simulator of a reader, 22 000 chains at each σ: all gaps overtake the bulk near 0.118.
     let sigmas = [0.11, 0.115, 0.12, 0.125];
-    let counts: Vec<Vec<Option<u32>>> = (0..4)
-        .map(|at| {
-            let chains =
-                Ensemble { first: 1000 * at as u64, stream: "test".into(), ..Ensemble::default() };
-            run(&chains, sigmas[at], 1000).distinct.remove(0)
-        })
-        .collect();
+    let counts = [0, 1, 2, 3].map(|i| {
+        let chains = Ensemble { first: 1000 * i, stream: "test".into(), ..Ensemble::default() };
+        run(&chains, sigmas[i as usize], 1000).distinct.remove(0)
+    });
     let samples =
-        [0, 1, 2, 3].map(|at| Sample { sigma: sigmas[at], counts: &counts[at], seed: at as u64 });
+        [0, 1, 2, 3].map(|i| Sample { sigma: sigmas[i], counts: &counts[i], seed: i as u64 });
     let all_gaps = mode_jump(&samples, Histogram { gaps: 101, half_width: 6 }).all_gaps;
     let (place, peak) = (all_gaps.sigma.unwrap(), all_gaps.peak.unwrap());
     assert!(place.error < 3e-3, "{place:?}");

@@ -55,16 +55,16 @@ fn variants(case: &Case) -> Vec<Vec<Impact>> {
         impacts.insert(at, Impact { time, gap: 0, closing_speed: 1.0 });
         impacts
     };
-    let mut all = vec![right.clone(), right.iter().skip(1).copied().collect(), Vec::new()];
-    all.push(right.iter().rev().copied().collect());
-    all.push(more(0, case.start.time));
-    all.extend([0.0, 1.0].map(|after| more(right.len(), case.until + after)));
-    all.extend([1, last].map(|by| changed(&|hit| hit.gap = (hit.gap + by) % (last + 1))));
+    let mut variants = vec![right.clone(), right.iter().skip(1).copied().collect(), Vec::new()];
+    variants.push(right.iter().rev().copied().collect());
+    variants.push(more(0, case.start.time));
+    variants.extend([0.0, 1.0].map(|after| more(right.len(), case.until + after)));
+    variants.extend([1, last].map(|by| changed(&|hit| hit.gap = (hit.gap + by) % (last + 1))));
     let times = [-1e-1, -1e-3, -1e-5, -1e-10, 1e-10, 1e-5, 1e-3, 1e-1];
-    all.extend(times.map(|by| changed(&|hit| hit.time += by)));
+    variants.extend(times.map(|by| changed(&|hit| hit.time += by)));
     let speeds = [0.0, 0.5, 0.97, 1.03, 2.0, 10.0];
-    all.extend(speeds.map(|by| changed(&|hit| hit.closing_speed *= by)));
-    all
+    variants.extend(speeds.map(|by| changed(&|hit| hit.closing_speed *= by)));
+    variants
 }
 
 #[test]
@@ -92,7 +92,7 @@ fn both_judges_agree() {
 #[test]
 fn programs_are_run_and_judged() {
     let readme = include_str!("../../scenes/README.md");
-    let shown = readme.split("```python\n").nth(1).unwrap().split("```").next().unwrap();
+    let example = readme.split("```python\n").nth(1).unwrap().split("```").next().unwrap();
     let folder = tempfile::tempdir().unwrap();
     let paths = ["program.py", "result.json"].map(|name| folder.path().join(name));
     let [program, result] = paths.each_ref().map(|path| path.to_str().unwrap());
@@ -107,7 +107,7 @@ fn programs_are_run_and_judged() {
         let read: Value = serde_json::from_slice(&fs::read(result).unwrap()).unwrap();
         [0, 1, 2].map(|case| read["cases"][case]["outcome"].as_str().unwrap().to_string())
     };
-    assert_eq!(outcomes(shown), ["right", "missed", "right"]);
+    assert_eq!(outcomes(example), ["right", "missed", "right"]);
     assert_eq!(outcomes("print('refused all')\nwhile True: pass"), ["refused"; 3]);
     assert_eq!(outcomes("print('gave_up at once')"), ["gave_up"; 3]);
     assert_eq!(outcomes("print('warned')\nprint(0, 0, 1)"), ["warned"; 3]);

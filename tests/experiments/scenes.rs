@@ -125,8 +125,8 @@ fn with_rest(scenario: &Scenario, mut start: State, until: f64) -> Vec<Impact> {
 /// The state in which all masses are at their centre of mass and move with it.
 fn joined(state: &State) -> State {
     let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
-    let all = |values: &[f64]| vec![mean(values); values.len()];
-    State { positions: all(&state.positions), velocities: all(&state.velocities), ..*state }
+    let means = |values: &[f64]| vec![mean(values); values.len()];
+    State { positions: means(&state.positions), velocities: means(&state.velocities), ..*state }
 }
 
 /// Masses that stick together until the forces, whose differences are all equal, pull all gaps

@@ -16,8 +16,8 @@ use impact_paper::experiments::segments::FILES;
 fn figures_5_and_6_show_their_circuits() {
     for (file, order) in FILES.into_iter().zip([&[0, 1, 3, 0][..], &[0, 0, 1, 0, 2, 1, 3, 3, 0]]) {
         let path = format!("{}/templates/{file}", env!("CARGO_MANIFEST_DIR"));
-        let text = std::fs::read_to_string(&path).unwrap();
-        let saved: serde_json::Value = serde_json::from_str(&text).unwrap();
+        let json = std::fs::read_to_string(&path).unwrap();
+        let saved: serde_json::Value = serde_json::from_str(&json).unwrap();
         let scenario = Scenario::from_json(&saved["scenario"].to_string()).unwrap();
         let until = saved["until"].as_f64().unwrap();
         let hits = Reference::new(&scenario).run(until).unwrap();

@@ -5,10 +5,10 @@ use crate::{SCENARIO, program, run};
 use std::fs;
 use std::process::Stdio;
 
-/// Refuses `text` as a scenario with one line that has all of `words`.
-fn refused(text: impl AsRef<[u8]>, words: &[&str]) {
+/// Holds the program to refuse a scenario with one line that has all of `words`.
+fn refused(scenario: impl AsRef<[u8]>, words: &[&str]) {
     let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("s.json"), text).unwrap();
+    fs::write(folder.path().join("s.json"), scenario).unwrap();
     crate::refused(folder.path(), "trace s.json --until 5", words);
 }
 
@@ -56,13 +56,13 @@ fn text_that_is_no_scenario() {
     refused([0xff, 0xfe, 0x00, 0x9f], &[]);
     refused("[".repeat(100_000), &[]);
     for line in NO_SCENARIOS.lines() {
-        let (text, words) = line.split_once(" => ").unwrap();
+        let (scenario, words) = line.split_once(" => ").unwrap();
         let words: Vec<&str> = words.split("; ").collect();
-        if !text.starts_with('"') {
-            refused(text, &words);
+        if !scenario.starts_with('"') {
+            refused(scenario, &words);
             continue;
         }
-        let (field, values) = text.split_once(':').unwrap();
+        let (field, values) = scenario.split_once(':').unwrap();
         for value in values.split('|') {
             refused(with(&format!("{field}:{value}")), &words);
         }
@@ -94,6 +94,7 @@ trace s.json --at 2,1 => --at; give rising
 trace s.json --at 1 --method verlet => --at; certified
 trace s.json --at period => --at: period; give --until
 trace s.json --until 5 --save file/below => --save: file/below; another file
+trace s.json --until 5 --save - => --save: standard output has the rows; give a file
 trace s.json --until 5 --from s.json => --from: s.json: ; that --save wrote
 trace s.json --until 5 --max-impacts=-1|1.5|99999999999999999999 => --max-impacts
 trace s.json --until 5 --step 0.1 => --step; certified takes neither; leave it out
@@ -151,7 +152,7 @@ fn options_out_of_range() {
         let (arguments, words) = line.split_once(" => ").unwrap();
         let words: Vec<&str> = words.split("; ").collect();
         let group = arguments.split(' ').find(|word| word.contains('|')).unwrap_or(arguments);
-        let option = group.find('=').filter(|_| group != arguments).map_or(0, |at| at + 1);
+        let option = group.find('=').filter(|_| group != arguments).map_or(0, |sign| sign + 1);
         for value in group[option..].split('|') {
             let value = format!("{}{value}", &group[..option]);
             crate::refused(here, &arguments.replace(group, &value), &words);

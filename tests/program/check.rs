@@ -90,8 +90,8 @@ fn faults_of_the_prose_are_reported_with_their_place() {
         });
         let (code, out, note) =
             crate::run(here, "paper --profile quick --out p --results r --templates t");
-        let text = std::fs::read_to_string(here.join("t").join(file)).unwrap();
-        let message = format!("{file}{}", message.replace('$', &text.lines().count().to_string()));
+        let prose = std::fs::read_to_string(here.join("t").join(file)).unwrap();
+        let message = format!("{file}{}", message.replace('$', &prose.lines().count().to_string()));
         let line = note.lines().last().unwrap();
         assert!(code.to_string() == expected && line.contains(&message), "{message}: {out}{note}");
     }

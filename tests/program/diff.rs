@@ -30,9 +30,9 @@ fn edit(path: &Path, from: &str, to: &str) {
 /// Another number, verdict and datum, a lost file and a new one.
 fn changed() -> tempfile::TempDir {
     let folder = twice();
-    let at = |path: &str| folder.path().join("b").join(path);
+    let changed = |path: &str| folder.path().join("b").join(path);
     let json = |path: &str| -> serde_json::Value {
-        serde_json::from_str(&fs::read_to_string(at(path)).unwrap()).unwrap()
+        serde_json::from_str(&fs::read_to_string(changed(path)).unwrap()).unwrap()
     };
     let mut values = json("values.json");
     let error =
@@ -42,22 +42,22 @@ fn changed() -> tempfile::TempDir {
     // What no printed digit shows is shown in full.
     let p = &mut values["theory.jump.p_jump"]["number"]["real"]["value"];
     *p = (p.as_f64().unwrap() + 1e-9).into();
-    let all = values.as_object_mut().unwrap();
-    let mut new = all.remove("theory.jump.p_crit").unwrap();
+    let cards = values.as_object_mut().unwrap();
+    let mut new = cards.remove("theory.jump.p_crit").unwrap();
     new["id"] = "new".into();
     new["number"] = serde_json::json!({"text": "a b"});
-    all.insert("new".into(), new);
-    fs::write(at("values.json"), format!("{values:#}\n")).unwrap();
+    cards.insert("new".into(), new);
+    fs::write(changed("values.json"), format!("{values:#}\n")).unwrap();
     let mut ledger = json("ledger.json");
     let claims = ledger["claims"].as_array_mut().unwrap();
     let claim = claims.iter_mut().find(|claim| claim["id"] == "sec7_jump").unwrap();
     claim["verdict"] = "differs".into();
     claim["tolerance"] = "± 0.0001 | more".into();
-    fs::write(at("ledger.json"), format!("{ledger:#}\n")).unwrap();
-    edit(&at("data/fig12.csv"), "\ntheory,0.021,1\n", "\ntheory,0.021,0.75\n");
-    fs::remove_file(at("data/fig07.csv")).unwrap();
-    fs::write(at("data/new.csv"), "a\n1\n").unwrap();
-    fs::write(at("report.html"), "built beside").unwrap();
+    fs::write(changed("ledger.json"), format!("{ledger:#}\n")).unwrap();
+    edit(&changed("data/fig12.csv"), "\ntheory,0.021,1\n", "\ntheory,0.021,0.75\n");
+    fs::remove_file(changed("data/fig07.csv")).unwrap();
+    fs::write(changed("data/new.csv"), "a\n1\n").unwrap();
+    fs::write(changed("report.html"), "built beside").unwrap();
     folder
 }
 
@@ -67,7 +67,7 @@ fn number_verdict_and_files_are_told_in_each_form() {
     let folder = changed();
     let here = folder.path();
     assert_eq!(answer(here, "diff a a"), "a and a: nothing differs\n");
-    let out = answer(here, "diff a b");
+    let differences = answer(here, "diff a b");
     for line in [
         "  sec7_jump: reproduced -> differs; tolerance: ten or more, above p_crit -> ± 0.0001 | more\n",
         "1 check and 4 numbers changed\n",
@@ -79,9 +79,9 @@ fn number_verdict_and_files_are_told_in_each_form() {
         "  gone     data/fig07.csv\n",
         "  differs  values.json\n",
     ] {
-        assert!(out.contains(line), "{line}: {out}");
+        assert!(differences.contains(line), "{line}: {differences}");
     }
-    assert!(!out.contains("report.html"), "{out}");
+    assert!(!differences.contains("report.html"), "{differences}");
 }
 
 #[test]

@@ -28,10 +28,10 @@ fn values_figures_equations_and_claims_are_explained() {
     let folder = report();
     for line in CARDS.lines() {
         let (id, parts) = line.split_once(" => ").unwrap();
-        let text = answer(folder.path(), &format!("explain --paper r {id}"));
-        assert!(!text.contains("\\mathrm") && !text.contains("\\Phi"), "{text}");
+        let card = answer(folder.path(), &format!("explain --paper r {id}"));
+        assert!(!card.contains("\\mathrm") && !card.contains("\\Phi"), "{card}");
         for part in parts.split("; ") {
-            assert!(text.contains(part), "{id}: {part:?} is not in\n{text}");
+            assert!(card.contains(part), "{id}: {part:?} is not in\n{card}");
         }
     }
     // The addresses that DESIGN.md gives.
@@ -39,9 +39,9 @@ fn values_figures_equations_and_claims_are_explained() {
     let addresses = design.split('`').filter(|code| code.contains("]."));
     let answers = addresses.map(|id| answer(folder.path(), &format!("explain --paper r {id}")));
     assert!(answers.count() > 0);
-    let text = answer(folder.path(), "explain --paper r");
+    let list = answer(folder.path(), "explain --paper r");
     for id in ["sweep.rise.half_height ", "fig:15 ", "fig:S1 ", "eq:38 ", "claim:sec2_onset "] {
-        assert!(text.lines().any(|line| line.starts_with(id)), "{id}");
+        assert!(list.lines().any(|line| line.starts_with(id)), "{id}");
     }
 }
 
@@ -58,11 +58,9 @@ fn things_are_found_by_part_by_number_and_as_people_write_them() {
         (&half[..5], "sweep.rise.half_height"),
     ] {
         let mut command = program(folder.path(), "explain --paper r");
-        let (code, text, note) = outcome(command.arg(asked));
-        assert!(
-            code == 0 && text.lines().any(|line| line.starts_with(id)),
-            "{asked}: {text}{note}"
-        );
+        let (code, card, note) = outcome(command.arg(asked));
+        let is_found = card.lines().any(|line| line.starts_with(id));
+        assert!(code == 0 && is_found, "{asked}: {card}{note}");
     }
     let column = answer(folder.path(), "explain --paper r race.finest[method=sampled].units");
     let lines: Vec<&str> = column.lines().collect();

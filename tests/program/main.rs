@@ -37,8 +37,8 @@ fn program(folder: &Path, arguments: &str) -> Command {
 
 /// Exit code, stdout and stderr; −1 for a program that a signal ended.
 fn ended_with(output: &Output) -> (i32, String, String) {
-    let text = |bytes: &Vec<u8>| String::from_utf8_lossy(bytes).into_owned();
-    (output.status.code().unwrap_or(-1), text(&output.stdout), text(&output.stderr))
+    let utf8 = |bytes: &Vec<u8>| String::from_utf8_lossy(bytes).into_owned();
+    (output.status.code().unwrap_or(-1), utf8(&output.stdout), utf8(&output.stderr))
 }
 
 fn outcome(command: &mut Command) -> (i32, String, String) {
@@ -59,8 +59,8 @@ fn answer(folder: &Path, arguments: &str) -> String {
 /// Holds a run to its refusal: exit code 2, and one line on stderr, which has these words.
 fn refused(folder: &Path, arguments: &str, words: &[&str]) {
     let (code, out, note) = run(folder, arguments);
-    let shown = (code, out.as_str(), note.lines().count());
-    assert_eq!(shown, (2, "", 1), "{arguments}: {note}");
+    let ending = (code, out.as_str(), note.lines().count());
+    assert_eq!(ending, (2, "", 1), "{arguments}: {note}");
     assert!(note.len() < 2000 && !note.contains("panicked"), "{arguments}: {note}");
     for jargon in ["f64", "u64", "usize", "i128", "struct ", "enum ", "digit found", "literal:"] {
         assert!(!note.contains(jargon), "{arguments}: {note}");
@@ -72,8 +72,8 @@ fn refused(folder: &Path, arguments: &str, words: &[&str]) {
 
 /// A saved result with other text in its second or third line, and a checksum that is right.
 fn forged(bytes: &[u8], line: usize, from: &str, to: &str) -> Vec<u8> {
-    let text = std::str::from_utf8(bytes).unwrap();
-    let mut lines: Vec<&str> = text.lines().collect();
+    let json = std::str::from_utf8(bytes).unwrap();
+    let mut lines: Vec<&str> = json.lines().collect();
     let changed = lines[line].replacen(from, to, 1);
     assert_ne!(changed, lines[line], "there is no {from}");
     lines[line] = &changed;
@@ -84,13 +84,13 @@ fn forged(bytes: &[u8], line: usize, from: &str, to: &str) -> Vec<u8> {
 /// Copies the project's templates, and changes one of their files.
 fn templates(to: &Path, file: &str, change: impl Fn(&str) -> String) {
     put(to, &tree(Path::new(TEMPLATES)));
-    let text = fs::read_to_string(to.join(file)).unwrap();
-    fs::write(to.join(file), change(&text)).unwrap();
+    let prose = fs::read_to_string(to.join(file)).unwrap();
+    fs::write(to.join(file), change(&prose)).unwrap();
 }
 
 type Files = BTreeMap<String, Vec<u8>>;
 
-/// All files below a folder, hidden ones included; none if it is not there.
+/// Returns all files below a folder, hidden ones included; nothing if it is not there.
 fn tree(folder: &Path) -> Files {
     let mut files = Files::new();
     for entry in fs::read_dir(folder).into_iter().flatten() {
@@ -122,9 +122,9 @@ fn put(folder: &Path, files: &Files) {
 /// Runs one of three shards of the quick profile, and returns its standard output and error.
 fn shard(folder: &Path, i: usize, results: &str) -> (String, String) {
     let line = format!("run --profile quick --shard {i}/3 --results {results} --threads {i}");
-    let (code, text, note) = run(folder, &line);
-    assert_eq!(code, 0, "{text}{note}");
-    (text, note)
+    let (code, out, note) = run(folder, &line);
+    assert_eq!(code, 0, "{out}{note}");
+    (out, note)
 }
 
 /// What the quick profile makes of three shards, run in another order and on other numbers of

@@ -40,14 +40,14 @@ fn a_figure_alone_runs_and_writes_no_more_than_it_needs() {
 #[test]
 fn saved_results_change_no_byte_and_neither_edits_nor_full_reports_are_written_over() {
     let folder = tempfile::tempdir().unwrap();
-    let at = |name: &str| folder.path().join(name);
-    put(&at("r1"), &QUICK.results);
-    put(&at("one"), &QUICK.report);
-    fs::remove_file(at("one/values.json")).unwrap();
+    let path = |name: &str| folder.path().join(name);
+    put(&path("r1"), &QUICK.results);
+    put(&path("one"), &QUICK.report);
+    fs::remove_file(path("one/values.json")).unwrap();
     let paper = "paper --profile quick --out one --results r1";
     // Nothing is run, nothing changes, not even the saved files' times.
     let times = || -> Vec<_> {
-        let files = QUICK.results.keys().map(|name| at("r1").join(name));
+        let files = QUICK.results.keys().map(|name| path("r1").join(name));
         files.map(|file| file.metadata().unwrap().modified().unwrap()).collect()
     };
     let before = times();
@@ -55,23 +55,23 @@ fn saved_results_change_no_byte_and_neither_edits_nor_full_reports_are_written_o
     assert_eq!((code, times()), (0, before), "{note}");
     assert!(out.contains("report.html") && out.contains(" statements of the paper: "), "{out}");
     assert_eq!(note.matches(": fresh").count(), EXPERIMENTS, "{note}");
-    assert!(QUICK.report == tree(&at("one")));
+    assert!(QUICK.report == tree(&path("one")));
 
     // A file that was lost has come back, one that was edited is refused by its name.
-    fs::write(at("one/ledger.json"), "{}").unwrap();
+    fs::write(path("one/ledger.json"), "{}").unwrap();
     refused(folder.path(), paper, &["ledger.json", "--force"]);
-    assert_eq!(fs::read(at("one/ledger.json")).unwrap(), b"{}");
+    assert_eq!(fs::read(path("one/ledger.json")).unwrap(), b"{}");
 
     // What would spoil a report of the full profile is refused before anything is run.
-    let values = fs::read_to_string(at("one/values.json")).unwrap();
+    let values = fs::read_to_string(path("one/values.json")).unwrap();
     let full = values.replace("\"text\": \"quick\"", "\"text\": \"full\"");
     assert_ne!(full, values);
-    fs::write(at("one/values.json"), full).unwrap();
-    let before = tree(&at("one"));
+    fs::write(path("one/values.json"), full).unwrap();
+    let before = tree(&path("one"));
     for arguments in ["--profile quick --force", "--profile quick --figure 4 --force"] {
         refused(folder.path(), &format!("paper {arguments} --out one"), &["full profile"]);
     }
-    assert!(before == tree(&at("one")));
+    assert!(before == tree(&path("one")));
 }
 
 /// Sends a signal to a program at work, and holds it to exit code 130: its stdout, stderr.

@@ -50,8 +50,8 @@ fn each_reason_is_told_and_nothing_else_is_run_again() {
         ("scale", "\"sigma\":", "1", "other parameters"),
     ] {
         let file = format!("{name}-quick.json");
-        let text = forged(&results[&file], 1, from, &format!("{from}{more}"));
-        fs::write(folder.join("results").join(file), text).unwrap();
+        let forgery = forged(&results[&file], 1, from, &format!("{from}{more}"));
+        fs::write(folder.join("results").join(file), forgery).unwrap();
         expected.push(format!("{name}: run again, {reason}"));
     }
     let trials = folder.join("results/trials-quick.json");
@@ -59,10 +59,9 @@ fn each_reason_is_told_and_nothing_else_is_run_again() {
     expected.push("trials: run again, the saved result is cut short or has extra lines".into());
     fs::remove_file(folder.join("results/seeds-quick.json")).unwrap();
     expected.push("seeds: run".into());
-    let text = stale(folder, "results");
-    let [said, all]: [BTreeSet<&str>; 2] =
-        [text.lines().collect(), expected.iter().map(String::as_str).collect()];
-    assert_eq!(said, all);
+    let message = stale(folder, "results");
+    let reasons: BTreeSet<&str> = message.lines().collect();
+    assert_eq!(reasons, expected.iter().map(String::as_str).collect());
     // One of them is run again, and no other.
     for (name, bytes) in results.iter().filter(|(name, _)| !name.starts_with("horizon")) {
         fs::write(folder.join("results").join(name), bytes).unwrap();
@@ -111,8 +110,8 @@ fn a_unit_that_is_missing_or_not_to_be_used_is_run_again() {
         let has = |shard: &Files| shard.contains_key("sweep-quick-0007.json");
         let i = QUICK.shards.iter().position(has).unwrap() + 1;
         let there = QUICK.shards[i - 1].len() - 1;
-        let (text, note) = shard(folder, i, "results");
-        assert_eq!(text, format!("results: shard {i}/3: 1 unit run, {there} already saved\n"));
+        let (out, note) = shard(folder, i, "results");
+        assert_eq!(out, format!("results: shard {i}/3: 1 unit run, {there} already saved\n"));
         let line = says.map(|says| format!("sweep: 1 unit run again, {says}"));
         assert!(line.is_none_or(|line| note.contains(&line)), "{says:?}: {note}");
         assert!(fs::read(&path).unwrap() == whole);

@@ -15,9 +15,9 @@ fn eval(arguments: &str) -> String {
 }
 
 fn object(arguments: &str) -> Value {
-    let text = eval(arguments);
-    assert!(text.ends_with('\n') && text.lines().count() == 1);
-    serde_json::from_str(&text).unwrap()
+    let json = eval(arguments);
+    assert!(json.ends_with('\n') && json.lines().count() == 1);
+    serde_json::from_str(&json).unwrap()
 }
 
 fn float(arguments: &str) -> f64 {
@@ -42,10 +42,13 @@ fn every_quantity_prints_what_the_library_computes() {
     assert_eq!(integer("k-after-jump --vertices 41"), after(simple));
     assert_eq!(integer("higher-k-after-jump --vertices 41"), after(five));
     for (prefix, space) in [("", simple), ("higher-", five)] {
-        let of = |quantity: &str| format!("{prefix}{quantity} --vertices 41 --p 0.07");
-        assert_eq!(integer(&of("k-star")), law(space).k_star() as u64);
-        assert_eq!(float(&of("mean-impacts")), law(space).mean());
-        assert_eq!(float(&(of("probability") + " --k 7")), law(space).probability(7).unwrap());
+        let quantity = |name: &str| format!("{prefix}{name} --vertices 41 --p 0.07");
+        assert_eq!(integer(&quantity("k-star")), law(space).k_star() as u64);
+        assert_eq!(float(&quantity("mean-impacts")), law(space).mean());
+        assert_eq!(
+            float(&(quantity("probability") + " --k 7")),
+            law(space).probability(7).unwrap()
+        );
     }
     assert_eq!(float("log-circuits --vertices 41 --k 7"), counting::log_phi(41, 7).unwrap());
     let given = "--sigma 0.2 --spacing 1.5 --omega 1.1 --forcing-frequency 0.6";
@@ -105,8 +108,8 @@ fn the_same_bytes_for_any_number_of_threads() {
 
 #[test]
 fn columns_and_rows() {
-    let text = table("--sigma 0.01,0.2");
-    let lines: Vec<&str> = text.lines().collect();
+    let table = table("--sigma 0.01,0.2");
+    let lines: Vec<&str> = table.lines().collect();
     assert_eq!(
         lines[0],
         "sigma,realisations,kept,rejected,mean_distinct,standard_error,mode_distinct,\
@@ -114,7 +117,7 @@ fn columns_and_rows() {
          standard_error_all,simultaneous,undecided,transient,window"
     );
     // At σ = 0.01 nothing can hit: the gap closes only for a 25-σ force. Empty, not zero or NaN.
-    assert!(lines[1].starts_with("0.01,24,0,0,,,,,0,0,0,0"), "{text}");
+    assert!(lines[1].starts_with("0.01,24,0,0,,,,,0,0,0,0"), "{table}");
     assert!(lines[2].starts_with("0.2,24,"));
 }
 
@@ -127,9 +130,9 @@ fn parts_windows_and_parameters_of_a_sweep() {
         for (option, value) in small.into_iter().filter(|(option, _)| !options.contains(option)) {
             line += &format!(" --{option} {value}");
         }
-        let text = answer(Path::new("."), &line);
+        let table = answer(Path::new("."), &line);
         let row = |line: &str| line.split(',').map(String::from).collect();
-        text.lines().skip(1).map(row).collect()
+        table.lines().skip(1).map(row).collect()
     };
     let impacts = |options: &str| cells(options)[0][8].parse::<u64>().unwrap();
     let parts = ["0..10", "10..24"].map(|part| impacts(&format!(" --realisations {part}")));
@@ -167,14 +170,14 @@ fn folder(scenario: &str) -> tempfile::TempDir {
 #[test]
 fn impacts_are_listed_in_order_from_a_file_or_a_pipe() {
     let folder = folder(SCENARIO);
-    let text = answer(folder.path(), "trace s.json --until 30");
-    assert!(text.starts_with("time,gap,closing_speed\n") && text.lines().count() > 5, "{text}");
+    let table = answer(folder.path(), "trace s.json --until 30");
+    assert!(table.starts_with("time,gap,closing_speed\n") && table.lines().count() > 5, "{table}");
     let mut command = program(folder.path(), "trace - --until 30");
     let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
     child.stdin.take().unwrap().write_all(SCENARIO.as_bytes()).unwrap();
-    assert_eq!(child.wait_with_output().unwrap().stdout, text.as_bytes());
+    assert_eq!(child.wait_with_output().unwrap().stdout, table.as_bytes());
     let mut last = 0.0;
-    for line in text.lines().skip(1) {
+    for line in table.lines().skip(1) {
         let cells: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
         assert!(cells[0] >= last && cells[1] <= 3.0 && cells[2] >= 0.0, "{line}");
         last = cells[0];
@@ -190,9 +193,10 @@ fn states_and_many_scenarios() {
     assert!(states.starts_with("time,mass,position,velocity\n0.0,1,1.0,0.0\n"), "{states}");
     assert_eq!(states.lines().count(), 1 + 3 * 3);
     let one_line = SCENARIO.replace('\n', " ");
-    std::fs::write(folder.path().join("s.json"), format!("{one_line}\n{one_line}\n[]\n")).unwrap();
+    std::fs::write(folder.path().join("s.json"), format!("{one_line}\n{one_line}\n\n[]\n"))
+        .unwrap();
     let (code, text, note) = run(folder.path(), "trace s.json --lines --until 9");
-    assert!(code == 2 && note.contains("s.json, line 3: scenario: "), "{note}");
+    assert!(code == 2 && note.contains("s.json, line 4: scenario: "), "{note}");
     let expected = |cells: [&str; 2], last: &str| {
         let rows = |cell: &str| -> String {
             plain.lines().skip(1).map(|row| format!("{cell},{row}\n")).collect()
@@ -203,9 +207,10 @@ fn states_and_many_scenarios() {
     let header = "scenario,time,gap,closing_speed\n";
     assert_eq!(text, header.to_string() + &expected(["1", "2"], ""));
     let (code, text, note) = run(folder.path(), "trace s.json --lines --until 9 --keep-going");
-    assert!(code == 0 && note.contains("line 3: scenario: "), "{note}");
+    let notes = ["line 4: scenario: ", "lines refused or stopped: 1"];
+    assert!(code == 1 && notes.iter().all(|words| note.contains(words)), "{note}");
     let header = "scenario,status,time,gap,closing_speed\n";
-    assert_eq!(text, header.to_string() + &expected(["1,ok", "2,ok"], "3,refused,,,\n"));
+    assert_eq!(text, header.to_string() + &expected(["1,ok", "2,ok"], "4,refused,,,\n"));
 }
 
 /// The events of two halves are those of the whole run, and samples are taken once in a period.
@@ -213,8 +218,8 @@ fn states_and_many_scenarios() {
 fn a_run_goes_on_from_what_was_saved() {
     let folder = folder(SCENARIO);
     let rows = |options: &str| -> Vec<(f64, String)> {
-        let text = answer(folder.path(), &format!("trace s.json {options}"));
-        let cells = text.lines().skip(1).map(|row| row.split_once(',').unwrap());
+        let table = answer(folder.path(), &format!("trace s.json {options}"));
+        let cells = table.lines().skip(1).map(|row| row.split_once(',').unwrap());
         cells.map(|(time, rest)| (time.parse().unwrap(), rest.to_string())).collect()
     };
     let whole = rows("--until 30 --events");
@@ -234,6 +239,16 @@ fn a_run_goes_on_from_what_was_saved() {
     let (code, _, note) = run(folder.path(), "trace s.json --from half.json --until 11");
     assert!(code == 2 && note.contains("--until: 11.0 is before the state, at 12.0"), "{note}");
     assert_eq!(rows("--at 0..9:4.5 --until 5").len(), 2 * 3);
+    assert_eq!(rows("--at 1,2,2,3").len(), 3 * 3);
+    let (code, _, note) = run(folder.path(), "trace s.json --from half.json --at 11,13");
+    assert!(code == 2 && note.contains("--at: 11.0 is before the state, at 12.0"), "{note}");
+    std::fs::write(
+        folder.path().join("short.json"),
+        r#"{"time":1,"positions":[],"velocities":[]}"#,
+    )
+    .unwrap();
+    let (code, _, note) = run(folder.path(), "trace s.json --from short.json --until 11");
+    assert!(code == 2 && note.contains("--from: short.json: positions: it has 0"), "{note}");
 }
 
 #[test]
@@ -242,9 +257,9 @@ fn the_method_that_is_named_is_run() {
     let by = |method: &str| answer(folder.path(), &format!("trace s.json --until 10{method}"));
     let plain = by("");
     for method in MethodName::ALL.map(MethodName::id).into_iter().chain(["truth"]) {
-        let out = by(&format!(" --method {method}"));
-        assert!(out.lines().count() > 5, "{out}");
-        assert_eq!(out == plain, method == "certified", "{method}");
+        let impacts = by(&format!(" --method {method}"));
+        assert!(impacts.lines().count() > 5, "{impacts}");
+        assert_eq!(impacts == plain, method == "certified", "{method}");
     }
     for (method, option) in [("verlet", "--step 0.01"), ("runge-kutta", "--tolerance 1e-4")] {
         let method = format!(" --method {method}");

@@ -92,7 +92,7 @@ class Files(unittest.TestCase):
         self.assertIn(f"\n## {workspace['version']}", text("CHANGELOG.md"))
         self.assertEqual(meta["programmingLanguage"]["version"], workspace["rust-version"])
         days = {meta["dateModified"], *re.findall(r'date-released: "(.*)"', citation)}
-        days |= set(re.findall(r'(?m)^            date: "(.*)",', text("src/main.rs")))
+        days |= set(re.findall(r'(?m)^            date: "(.*)",', text("src/lib.rs")))
         self.assertEqual(len(days), 1, days)
         year, month = re.search(r"(?m)^  year: (\d+)\n  month: (\d+)$", citation).groups()
         self.assertTrue(days.pop().startswith(f"{year}-{int(month):02}-"), "of preferred-citation")

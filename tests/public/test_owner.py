@@ -75,7 +75,7 @@ class Filled(unittest.TestCase):
         expected = {
             *("CITATION.cff", "codemeta.json", "codecheck.yml", "ro-crate-metadata.json"),
             *("README.md", "REPRODUCTION.md", "SECURITY.md", "CODE_OF_CONDUCT.md"),
-            *("Cargo.toml", "benches/Cargo.toml", "src/main.rs"),
+            *("Cargo.toml", "benches/Cargo.toml", "src/lib.rs"),
         }
         self.assertEqual(changed, expected | packages | wheels)
 
@@ -136,8 +136,8 @@ class Filled(unittest.TestCase):
 
     def test_pages_and_prose(self):
         # Pages have authors and address from Cargo.toml, and the DOI from here.
-        self.assertIn(f'            doi: "{DOI}",\n', self.text("src/main.rs"))
-        self.assertIn('address: env!("CARGO_PKG_REPOSITORY")', self.text("src/main.rs"))
+        self.assertIn(f'            doi: "{DOI}",\n', self.text("src/lib.rs"))
+        self.assertIn('address: env!("CARGO_PKG_REPOSITORY")', self.text("src/lib.rs"))
         for path in ("SECURITY.md", "CODE_OF_CONDUCT.md"):
             self.assertIn("in confidence. The way: <safety@example.org>.\n", self.text(path))
         letter = f"that we erred. The edition is at <{REPOSITORY}>. Ada Example, Zoë O'Neill\n"

@@ -3,7 +3,7 @@
 
 use super::QUICK;
 use impact_chain::Scenario;
-use impact_numerics::random::generator;
+use impact_numerics::random::{Seed, generator};
 use impact_paper::claims::Published;
 use literate::input::one_line;
 use literate::prose::Templates;
@@ -42,21 +42,21 @@ const SIGNS: &str = "{~}~[~]~(~)~\"~\\~,~=~\n\n~\r~\0~#~$~$$~```~*~|~> ~- ~«~»
 type Reader = fn(&str) -> Result<(), String>;
 
 fn damaged(name: &str, index: u64, good: &str) -> String {
-    let mut random = generator(name, 1, index);
+    let mut random = generator(name, Seed(1), index);
     let signs: Vec<&str> = SIGNS.split('~').collect();
     let mut bytes = good.as_bytes().to_vec();
     for _ in 0..random.random_range(1..4) {
-        let at = random.random_range(0..=bytes.len());
-        let end = (at + random.random_range(0..40)).min(bytes.len());
+        let offset = random.random_range(0..=bytes.len());
+        let end = (offset + random.random_range(0..40)).min(bytes.len());
         match random.random_range(0..5) {
-            0 if at < bytes.len() => bytes[at] ^= 1 << random.random_range(0..8),
-            1 => drop(bytes.drain(at..end)),
-            2 if random.random_bool(0.2) => bytes.truncate(at),
-            3 => drop(bytes.splice(at..at, bytes[at..end].to_vec())),
+            0 if offset < bytes.len() => bytes[offset] ^= 1 << random.random_range(0..8),
+            1 => drop(bytes.drain(offset..end)),
+            2 if random.random_bool(0.2) => bytes.truncate(offset),
+            3 => drop(bytes.splice(offset..offset, bytes[offset..end].to_vec())),
             _ => {
                 let times = if random.random_bool(0.1) { 1000 } else { 1 };
                 let sign = signs[random.random_range(0..signs.len())];
-                drop(bytes.splice(at..at, sign.repeat(times).bytes()));
+                drop(bytes.splice(offset..offset, sign.repeat(times).bytes()));
             }
         }
     }
@@ -84,7 +84,7 @@ static LIBRARY: LazyLock<Library> =
 
 /// What documents make of a text.
 fn prose(text: &str) -> Result<(), Error> {
-    let (values, templates) = (&QUICK.values, Templates::of([("report.md", text)]));
+    let (values, templates) = (&QUICK.values, Templates::from_files([("report.md", text)]));
     let filler = Filler::new(&templates, values)?;
     let filled = filler.prose(&Document::REPORT)?;
     let sources = &QUICK.paper.project.sources;

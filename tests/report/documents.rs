@@ -10,7 +10,7 @@ use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
 /// Words of prose: no code, no displayed formula, no table, no address of a link, no description
 /// that is read instead of a picture; a formula in a line is one word.
 fn words(markdown: &str) -> usize {
-    let (mut left_out, mut text) = (0, String::new());
+    let (mut left_out, mut prose) = (0, String::new());
     for event in Parser::new_ext(markdown, Options::ENABLE_TABLES | Options::ENABLE_MATH) {
         match event {
             Event::Start(Tag::Table(_) | Tag::CodeBlock(_) | Tag::Image { .. }) => left_out += 1,
@@ -18,15 +18,15 @@ fn words(markdown: &str) -> usize {
             // Where the files of a figure are.
             Event::InlineHtml(html) if &*html == "<sub>" => left_out += 1,
             Event::InlineHtml(html) if &*html == "</sub>" => left_out -= 1,
-            Event::Text(piece) | Event::Code(piece) if left_out == 0 => text += &piece,
-            Event::InlineMath(_) if left_out == 0 => text.push('x'),
+            Event::Text(piece) | Event::Code(piece) if left_out == 0 => prose += &piece,
+            Event::InlineMath(_) if left_out == 0 => prose.push('x'),
             Event::Start(Tag::Paragraph | Tag::Item | Tag::Heading { .. })
             | Event::SoftBreak
-            | Event::HardBreak => text.push(' '),
+            | Event::HardBreak => prose.push(' '),
             _ => {}
         }
     }
-    text.split_whitespace().filter(|word| word.contains(char::is_alphanumeric)).count()
+    prose.split_whitespace().filter(|word| word.contains(char::is_alphanumeric)).count()
 }
 
 /// The text from a heading, given by its words, on to the next heading or figure.
@@ -38,16 +38,16 @@ fn section<'a>(markdown: &'a str, heading: &str) -> &'a str {
 
 #[test]
 fn no_document_outgrows_its_reader() {
-    let text =
+    let markdown_of =
         |name: &str| std::str::from_utf8(&QUICK.report[&format!("{name}.md")]).unwrap().to_owned();
-    let (edition, beyond) = (text("report"), text("beyond"));
+    let (edition, beyond) = (markdown_of("report"), markdown_of("beyond"));
     let counts = [
-        ("the front page", words(&text("README")), 600),
+        ("the front page", words(&markdown_of("README")), 600),
         ("the edition", words(&edition), 7_000),
         ("its abstract", words(section(&edition, "Abstract")), 220),
         ("the second paper", words(&beyond), 4_500),
         ("its abstract", words(section(&beyond, "Abstract")), 120),
-        ("the methods", words(&text("methods")), 3_000),
+        ("the methods", words(&markdown_of("methods")), 3_000),
     ];
     let too_long: Vec<_> =
         counts.iter().filter(|(_, count, budget)| *count * 10 > budget * 11).collect();
@@ -76,14 +76,14 @@ fn links(text: &str) -> (Vec<String>, Vec<String>) {
 
 #[test]
 fn every_link_lands_wherever_the_report_is_written() {
-    let texts = |report: &Files| {
-        let text = |of: &Document| {
-            let text = std::str::from_utf8(&report[of.markdown]).unwrap();
-            (of.markdown.to_string(), links(text))
+    let links_of = |report: &Files| {
+        let markdown = |of: &Document| {
+            let markdown = std::str::from_utf8(&report[of.markdown]).unwrap();
+            (of.markdown.to_string(), links(markdown))
         };
-        QUICK.paper.edition.documents.iter().map(text).collect()
+        QUICK.paper.edition.documents.iter().map(markdown).collect()
     };
-    super::links_land(texts, 200, 150);
+    super::links_land(links_of, 200, 150);
 }
 
 /// Mathematics comes through Markdown as it was written, escapes, stars and underscores included:

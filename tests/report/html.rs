@@ -7,9 +7,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
 
 static PAGES: LazyLock<BTreeMap<&str, String>> = LazyLock::new(|| {
-    let text = |page: &str| String::from_utf8(QUICK.report[page].clone()).unwrap();
+    let page_text = |page: &str| String::from_utf8(QUICK.report[page].clone()).unwrap();
     let documents = QUICK.paper.edition.documents.iter();
-    documents.map(|document| (document.page, text(document.page))).collect()
+    documents.map(|document| (document.page, page_text(document.page))).collect()
 });
 
 fn parsed(text: &str) -> Document<'_> {
@@ -29,8 +29,8 @@ fn pages() -> impl Iterator<Item = (&'static str, Document<'static>)> {
 type Card = (String, String, Vec<usize>);
 
 fn cards(report: &Files) -> (Vec<String>, BTreeMap<String, Card>) {
-    let text = std::str::from_utf8(&report["cards.js"]).unwrap();
-    let json = text.strip_prefix("CARDS = ").and_then(|text| text.strip_suffix(";\n"));
+    let script = std::str::from_utf8(&report["cards.js"]).unwrap();
+    let json = script.strip_prefix("CARDS = ").and_then(|script| script.strip_suffix(";\n"));
     serde_json::from_str(json.unwrap()).unwrap()
 }
 
@@ -44,18 +44,19 @@ fn words(node: Node<'_, '_>) -> String {
 
 #[test]
 fn every_link_lands_wherever_the_report_is_written() {
-    let links = |text: &str| {
-        let page = parsed(text);
-        let all =
+    let links = |html: &str| {
+        let page = parsed(html);
+        let attributes =
             |name| page.descendants().filter_map(move |n| n.attribute(name)).map(String::from);
-        let links = all("href").chain(all("src")).filter(|to| !to.starts_with("data:"));
-        (links.collect(), all("id").collect())
+        let links =
+            attributes("href").chain(attributes("src")).filter(|to| !to.starts_with("data:"));
+        (links.collect(), attributes("id").collect())
     };
     super::links_land(
         |report| {
             let page = |of: &literate::report::Document| {
-                let text = std::str::from_utf8(&report[of.page]).unwrap();
-                (of.page.to_string(), links(text))
+                let html = std::str::from_utf8(&report[of.page]).unwrap();
+                (of.page.to_string(), links(html))
             };
             let cards = format!("<p>{}</p>", cards(report).0.concat());
             let cards = ("cards.js".to_string(), links(&cards));
@@ -88,9 +89,9 @@ fn every_value_has_one_card() {
         assert!(!row.contains("<code>") || row.contains("<a href=\"../"), "{row}");
     }
     let card = &cards["sweep.rise.half_height"];
-    let text: String = card.2.iter().map(|row| rows[*row].as_str()).collect();
+    let html: String = card.2.iter().map(|row| rows[*row].as_str()).collect();
     for part in ["rise::", "<wbr/>Curve::<wbr/>new", "standard error", "--rerun sweep"] {
-        assert!(text.contains(part), "{part:?} is not in {text:?}");
+        assert!(html.contains(part), "{part:?} is not in {html:?}");
     }
     // The headline number stands in an equation, and opens there too.
     let page = page("report.html");
@@ -138,8 +139,8 @@ fn equations_are_mathml() {
     let page = page("report.html");
     assert!(elements(&page, "math").len() > 300);
     assert!(elements(&page, "merror").is_empty());
-    let texts = page.descendants().filter(Node::is_text);
-    for text in texts.filter_map(|node| node.text()) {
-        assert!(!text.contains(['\u{e000}', '\u{e003}', '\u{e005}', '$']), "{text:?}");
+    let text_nodes = page.descendants().filter(Node::is_text);
+    for node_text in text_nodes.filter_map(|node| node.text()) {
+        assert!(!node_text.contains(['\u{e000}', '\u{e003}', '\u{e005}', '$']), "{node_text:?}");
     }
 }

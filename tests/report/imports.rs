@@ -26,10 +26,10 @@ fn is_name(word: &str) -> bool {
 /// Splits Rust into words, signs and `::`, without comments, texts and characters.
 fn tokens(text: &str) -> Vec<String> {
     let is_word = |c: char| c.is_alphanumeric() || c == '_';
-    let (mut all, mut rest) = (Vec::new(), text);
+    let (mut tokens, mut rest) = (Vec::new(), text);
     while let Some(c) = rest.chars().next() {
         let behind = |begin: usize, end: &str| {
-            rest[begin..].find(end).map_or(rest.len(), |at| begin + at + end.len())
+            rest[begin..].find(end).map_or(rest.len(), |offset| begin + offset + end.len())
         };
         let after: Vec<char> = rest.chars().skip(1).take(2).collect();
         let (length, is_token) = match (c, &after[..]) {
@@ -41,7 +41,7 @@ fn tokens(text: &str) -> Vec<String> {
                 let end = loop {
                     match signs.next() {
                         Some((_, '\\')) => drop(signs.next()),
-                        Some((at, '"')) => break at + 1,
+                        Some((offset, '"')) => break offset + 1,
                         Some(_) => (),
                         None => break rest.len(),
                     }
@@ -54,10 +54,10 @@ fn tokens(text: &str) -> Vec<String> {
             (c, _) if is_word(c) => (rest.find(|c| !is_word(c)).unwrap_or(rest.len()), true),
             (c, _) => (c.len_utf8(), !c.is_whitespace()),
         };
-        all.extend(is_token.then(|| rest[..length].to_string()));
+        tokens.extend(is_token.then(|| rest[..length].to_string()));
         rest = &rest[length..];
     }
-    all
+    tokens
 }
 
 /// The place behind the item that begins here: behind its `;`, or behind its braces.
@@ -170,13 +170,13 @@ impl Modules {
 
     fn named(&self, from: &[String], name: &str) -> Option<Found> {
         let child = [from, &[name.to_string()]].concat();
-        if let Some(found) = self.known.borrow().get(&child) {
-            return found.clone();
+        if let Some(meaning) = self.known.borrow().get(&child) {
+            return meaning.clone();
         }
         self.known.borrow_mut().insert(child.clone(), None);
-        let found = self.look_up(from, name, &child);
-        self.known.borrow_mut().insert(child, found.clone());
-        found
+        let meaning = self.look_up(from, name, &child);
+        self.known.borrow_mut().insert(child, meaning.clone());
+        meaning
     }
 
     fn look_up(&self, from: &[String], name: &str, child: &[String]) -> Option<Found> {
@@ -271,21 +271,21 @@ fn arrows() -> BTreeMap<String, BTreeSet<String>> {
             }
         }
     }
-    let mut all: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+    let mut arrows: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
     for (path, module) in &modules.all {
         let globs = module.globs.iter().map(|glob| (glob, true));
         for (used, is_glob) in module.paths.iter().map(|path| (path, false)).chain(globs) {
-            let to = match modules.resolve(path, used) {
+            let imported = match modules.resolve(path, used) {
                 Some(Found::Item(file)) => file,
-                Some(Found::Module(to)) if is_glob => modules.all[&to].file.clone(),
+                Some(Found::Module(imported)) if is_glob => modules.all[&imported].file.clone(),
                 _ => continue,
             };
-            if to != module.file {
-                all.entry(module.file.clone()).or_default().insert(to);
+            if imported != module.file {
+                arrows.entry(module.file.clone()).or_default().insert(imported);
             }
         }
     }
-    all
+    arrows
 }
 
 /// Files that import nothing, or only such that were taken away, are taken away until none is left.
@@ -320,23 +320,23 @@ fn layers() -> Vec<(String, Vec<String>)> {
 fn imports_are_those_of_the_drawing() {
     let layers = layers();
     assert!(layers.len() > 15, "DESIGN.md has the layers, a line each, as `LAYER ← LAYERS`");
-    let of = |file: &str| {
+    let layer_of = |file: &str| {
         let inside = file.replace("/src/", "/").trim_start_matches("crates/").to_string();
         let is_in = |name: &str| {
             let rest = inside.strip_prefix(name);
             rest.is_some_and(|rest| rest.starts_with('/') || rest.starts_with(".rs"))
         };
-        let found = layers.iter().filter(|(name, _)| is_in(name));
-        found.max_by_key(|(name, _)| name.len())
+        let matching = layers.iter().filter(|(name, _)| is_in(name));
+        matching.max_by_key(|(name, _)| name.len())
     };
     let mut wrong = Vec::new();
     for (from, to) in arrows() {
-        let Some((layer, used)) = of(&from) else {
+        let Some((layer, used)) = layer_of(&from) else {
             wrong.push(format!("{from} is in no layer"));
             continue;
         };
         for file in to {
-            let other = of(&file).map_or("none", |(name, _)| name);
+            let other = layer_of(&file).map_or("none", |(name, _)| name);
             if other != layer && !used.iter().any(|name| name == other) {
                 wrong.push(format!("{from} ({layer}) imports {file} ({other})"));
             }

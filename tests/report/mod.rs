@@ -7,10 +7,6 @@ mod html;
 mod imports;
 mod legibility;
 mod picture;
-// What the paper is made of.
-#[path = "../../src/main.rs"]
-#[allow(dead_code)]
-mod program;
 mod prose;
 mod structure;
 
@@ -101,7 +97,7 @@ fn links_land(files: impl Fn(&Files) -> Links, least: usize, across: usize) {
 }
 
 static QUICK: LazyLock<Quick> = LazyLock::new(|| {
-    let paper = program::paper();
+    let paper = impact_paper::paper();
     let (session, results) = results(&paper, ALL);
     let published = paper.published(&session).unwrap();
     let mut claims = claims::judge_all(&published, &claims::rules(), &results).unwrap();
@@ -127,5 +123,14 @@ static QUICK: LazyLock<Quick> = LazyLock::new(|| {
     };
     let [report, below] = [Some("../"), Some("../../")].map(made);
     let templates = session.templates.clone();
-    Quick { paper: program::paper(), templates, published, figures, report, below, results, values }
+    Quick {
+        paper: impact_paper::paper(),
+        templates,
+        published,
+        figures,
+        report,
+        below,
+        results,
+        values,
+    }
 });

@@ -17,14 +17,14 @@ use impact_paper::params::MethodName;
 #[test]
 fn the_report_has_every_equation_and_figure() {
     let documents = QUICK.paper.edition.documents.iter().filter(|document| !document.repeats);
-    let text: String = documents.map(|document| QUICK.markdown(document)).collect();
+    let markdown: String = documents.map(|document| QUICK.markdown(document)).collect();
     for number in 1..=38 {
-        assert_eq!(text.matches(&format!("\\tag{{{number}}}")).count(), 1, "Eq. ({number})");
+        assert_eq!(markdown.matches(&format!("\\tag{{{number}}}")).count(), 1, "Eq. ({number})");
     }
     for name in figures::ALL.iter().map(|figure| figure.name) {
         let number = name.trim_start_matches("fig").trim_start_matches('0').to_uppercase();
         let number = number.replace("S0", "S");
-        assert_eq!(text.matches(&format!("**Figure {number}.**")).count(), 1, "Fig. {number}");
+        assert_eq!(markdown.matches(&format!("**Figure {number}.**")).count(), 1, "Fig. {number}");
     }
 }
 
@@ -80,8 +80,8 @@ fn judged(results: &Results, expected: &[(&str, Verdict)]) {
     rules.retain(|rule| expected.iter().any(|(id, _)| *id == rule.id));
     let checks = claims::judge_all(&QUICK.published, &rules, results).unwrap();
     for (id, verdict) in expected {
-        let found = checks.iter().find(|check| check.id == *id).unwrap().verdict;
-        assert_eq!(found, *verdict, "{id}");
+        let judged_as = checks.iter().find(|check| check.id == *id).unwrap().verdict;
+        assert_eq!(judged_as, *verdict, "{id}");
     }
 }
 
@@ -158,8 +158,8 @@ fn claims_fail_when_the_results_say_so() {
 /// The printed threshold is that of the mean of realisations with an impact, not of all.
 #[test]
 fn the_half_height_is_that_of_realisations_with_an_impact() {
-    let at = |value| Some(with_error(value, 0.001));
-    for (half_height, all, expected) in
+    let estimate = |value| Some(with_error(value, 0.001));
+    for (half_height, of_all, expected) in
         [(0.12, 0.3, Verdict::Reproduced), (0.3, 0.12, Verdict::Differs)]
     {
         let mut results = QUICK.results_again(ALL);
@@ -167,7 +167,8 @@ fn the_half_height_is_that_of_realisations_with_an_impact() {
             for curve in
                 results.of_mut(experiment).unwrap().iter_mut().flat_map(|it| &mut it.curves)
             {
-                (curve.rise.half_height, curve.rise.half_height_all) = (at(half_height), at(all));
+                (curve.rise.half_height, curve.rise.half_height_all) =
+                    (estimate(half_height), estimate(of_all));
             }
         }
         judged(&results, &[("sec2_half_height", expected)]);
@@ -191,7 +192,7 @@ fn the_promise_of_the_engine_follows_the_numbers() {
     let worse: [fn(&mut Results); 4] = [
         |results| results.of_mut(&RACE).unwrap().entries[0].misses += 1,
         |results| results.of_mut(&RACE).unwrap().entries[0].units = Some(9.0),
-        |results| results.of_mut(&TRIALS).unwrap().found[0][0][0] = Missed,
+        |results| results.of_mut(&TRIALS).unwrap().trials[0][0][0] = Missed,
         |results| {
             let ours = |m: MethodName| m == MethodName::Certified;
             let scale = results.of_mut(&SCALE).unwrap();
@@ -207,15 +208,16 @@ fn the_promise_of_the_engine_follows_the_numbers() {
 
 #[test]
 fn the_page_has_each_run_with_its_digest_and_the_module() {
-    let text = impact_paper::lab::script(b"foobar", &QUICK.results, "end();").unwrap();
-    let data = text.split("const LAB = ").nth(1).unwrap().strip_suffix(";\n{\nend();}\n").unwrap();
+    let script = impact_paper::lab::script(b"foobar", &QUICK.results, "end();").unwrap();
+    let data =
+        script.split("const LAB = ").nth(1).unwrap().strip_suffix(";\n{\nend();}\n").unwrap();
     let data: serde_json::Value = serde_json::from_str(data).unwrap();
     assert_eq!(data["module"], "Zm9vYmFy");
     let protocols = data["protocols"].as_array().unwrap();
     assert_eq!(protocols.len(), QUICK.results.of(&PROTOCOL).unwrap()[0].curves.len());
     let replays = QUICK.results.of(&REPLAY).unwrap();
-    assert_eq!(data["runs"].as_array().unwrap().len(), replays.found.len());
-    for (i, found) in replays.found.iter().enumerate() {
+    assert_eq!(data["runs"].as_array().unwrap().len(), replays.results.len());
+    for (i, found) in replays.results.iter().enumerate() {
         assert_eq!(data["runs"][i]["found"]["digest"], found.digest.as_str());
         let asked = serde_json::from_value(data["runs"][i]["asked"].clone());
         let asked: impact_paper::experiments::replay::Request = asked.unwrap();

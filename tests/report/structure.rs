@@ -14,24 +14,24 @@ pub fn root() -> &'static Path {
 pub fn files(folder: &str, endings: &[&str]) -> Vec<(String, String)> {
     let mut files = crate::tree(&root().join(folder));
     files.retain(|path, _| endings.iter().any(|end| path.ends_with(end)));
-    let text = |(path, bytes)| (format!("{folder}/{path}"), String::from_utf8(bytes).unwrap());
-    files.into_iter().map(text).collect()
+    let with_text = |(path, bytes)| (format!("{folder}/{path}"), String::from_utf8(bytes).unwrap());
+    files.into_iter().map(with_text).collect()
 }
 
 #[test]
 fn no_path_of_a_machine() {
     // In two parts, so that this file does not find itself.
     let paths = ["/wo:rk/", "/ro:ot/", "/ho:me/", "/tm:p/", "/Us:ers/"].map(|p| p.replace(':', ""));
-    let all = [".rs", ".toml", ".md", ".tex", ".bib", ".json", ".csv", ".svg", "run"];
+    let endings = [".rs", ".toml", ".md", ".tex", ".bib", ".json", ".csv", ".svg", "run"];
     let folders = ["src", "crates", "tests", "templates", "paper", ".ci"];
-    let mut texts: Vec<_> = folders.iter().flat_map(|folder| files(folder, &all)).collect();
+    let mut texts: Vec<_> = folders.iter().flat_map(|folder| files(folder, &endings)).collect();
     for name in ["README.md", "DESIGN.md", "CHANGELOG.md", "Makefile", "Cargo.toml", "CITATION.cff"]
     {
         texts.push((name.into(), fs::read_to_string(root().join(name)).unwrap()));
     }
-    for (name, text) in texts {
+    for (name, content) in texts {
         for path in &paths {
-            assert!(!text.contains(path.as_str()), "{name} has {path}");
+            assert!(!content.contains(path.as_str()), "{name} has {path}");
         }
     }
 }
@@ -91,9 +91,9 @@ fn each_equation_has_one_home() {
     for EquationEntry { number, home, step_towards, .. } in &paper.edition.equations {
         let step = step_towards.as_ref().map(|next| format!(" (step towards {next}):"));
         let mark = format!("**Eq. ({number})**{}", step.unwrap_or_default());
-        let found = paper.project.sources.files.iter().filter(|(_, text)| text.contains(&mark));
-        let found: Vec<_> = found.collect();
-        let [(path, text)] = found.as_slice() else { panic!("{mark}: {} homes", found.len()) };
+        let homes = paper.project.sources.files.iter().filter(|(_, text)| text.contains(&mark));
+        let homes: Vec<_> = homes.collect();
+        let [(path, text)] = homes.as_slice() else { panic!("{mark}: {} homes", homes.len()) };
         assert_eq!(Some(*path), paper.project.sources.file(home), "{mark}");
         let (_, rest) = text.split_once(&mark).unwrap();
         assert!(!rest.contains(&mark), "{mark} stands twice in {path}");

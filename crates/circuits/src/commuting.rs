@@ -10,25 +10,27 @@ use std::collections::BTreeSet;
 
 /// Counts, by enumeration, simple circuits on `big_n` gaps, and classes that exchanges connect.
 pub fn simple_classes(big_n: usize) -> [usize; 2] {
-    let all = Graph::of_chain(big_n - 1).circuits(big_n);
-    let mut left: BTreeSet<Circuit> = all.filter(|circuit| circuit.repeats().is_empty()).collect();
-    let (circuits, mut classes) = (left.len(), 0);
-    while let Some(circuit) = left.pop_first() {
+    let circuits = Graph::of_chain(big_n - 1).circuits(big_n);
+    let mut unclassed: BTreeSet<Circuit> =
+        circuits.filter(|circuit| circuit.repeats().is_empty()).collect();
+    let (simple, mut classes) = (unclassed.len(), 0);
+    while let Some(circuit) = unclassed.pop_first() {
         classes += 1;
         let mut reached = vec![circuit];
         while let Some(circuit) = reached.pop() {
-            reached.extend(exchanged(circuit.word()).filter(|other| left.remove(other)));
+            reached.extend(exchanged(circuit.word()).filter(|other| unclassed.remove(other)));
         }
     }
-    [circuits, classes]
+    [simple, classes]
 }
 
+/// Lists the circuits that follow from one exchange of neighbours without a common mass.
 fn exchanged(word: &[usize]) -> impl Iterator<Item = Circuit> + '_ {
-    let after = |at: usize| (at + 1) % word.len();
-    let free = move |at: &usize| word[*at].abs_diff(word[after(*at)]) > 1;
-    (0..word.len()).filter(free).map(move |at| {
+    let after = |place: usize| (place + 1) % word.len();
+    let commutes = move |place: &usize| word[*place].abs_diff(word[after(*place)]) > 1;
+    (0..word.len()).filter(commutes).map(move |place| {
         let mut other = word.to_vec();
-        other.swap(at, after(at));
+        other.swap(place, after(place));
         Circuit::new(other)
     })
 }
@@ -48,6 +50,14 @@ mod tests {
     fn all_orders_of_the_same_gaps_are_one() {
         // By Eq. (7), N!/(k (N − k)!) over k = 1..6: 6 + 15 + 40 + 90 + 144 + 120. Sets: 2^N − 1.
         assert_eq!([1, 2, 3, 6].map(simple_classes), [[1, 1], [3, 3], [8, 7], [415, 63]]);
+    }
+
+    /// Of the impacts 0, 1 and 3 in a circle only 1 and 3, and 3 and 0, have no mass in common.
+    #[test]
+    fn impacts_without_a_common_mass_change_places() {
+        let words: Vec<_> = exchanged(&[0, 1, 3]).map(|other| other.word().to_vec()).collect();
+        assert_eq!(words.len(), 2);
+        assert_eq!(exchanged(&[0, 1]).count(), 0);
     }
 
     #[test]

@@ -8,7 +8,7 @@ use impact_numerics::scaled::Scaled;
 /// **Eq. (6)**
 ///
 /// Returns the number of distinct paths of length k from a given vertex back to itself through
-/// k − 1 other vertices, all different: (N − 1)!/(N − k)!. None if it exceeds 128 bits.
+/// k − 1 other vertices, all different: (N − 1)!/(N − k)!. `None` if it exceeds 128 bits.
 pub fn paths(big_n: usize, k: usize) -> Option<u128> {
     if !(1..=big_n).contains(&k) {
         return Some(0);

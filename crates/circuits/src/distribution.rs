@@ -4,7 +4,7 @@
 //! digits as N grows. Here every weight is a running product of the factors p (N − k), carried
 //! with 106 bits and a separate exponent, so N = 10^6 costs neither digits nor range.
 
-use crate::error::{Error, within};
+use crate::error::{Error, check_range};
 use crate::higher_order;
 pub use crate::higher_order::SampleSpace;
 use impact_numerics::double_double::DoubleDouble;
@@ -14,7 +14,7 @@ use impact_numerics::scaled::Scaled;
 pub const LARGEST_N: usize = 10_000_000;
 
 pub(crate) fn check_vertices(big_n: usize) -> Result<(), Error> {
-    within("vertices", big_n, 1, LARGEST_N)
+    check_range("vertices", big_n, 1, LARGEST_N)
 }
 
 /// The distribution of X for one sample space, N and p; p = 0 stands for the limit p → 0+.
@@ -83,7 +83,7 @@ impl Law {
     /// Creates the law of N vertices with edge probability p, from 0 to 1.
     pub fn new(space: SampleSpace, big_n: usize, p: f64) -> Result<Self, Error> {
         check_vertices(big_n)?;
-        within("p", p, 0.0, 1.0)?;
+        check_range("p", p, 0.0, 1.0)?;
         Ok(Law { space, big_n, p })
     }
 
@@ -103,7 +103,7 @@ impl Law {
     /// common factor p drops out of every probability, and without it the limit p → 0+ is the
     /// value at p = 0. Γ_{N,p}, over p as well, is the sum of all weights.
     pub fn weight(&self, k: usize) -> Result<Scaled, Error> {
-        within("k", k, 1, self.big_n)?;
+        check_range("k", k, 1, self.big_n)?;
         Ok(self.all_weights().nth(k - 1).expect("k ≤ N"))
     }
 
@@ -134,6 +134,7 @@ impl Law {
         Ok((self.weight(k)? / self.sums().total).to_f64())
     }
 
+    /// Returns P(X = k) for k = 1..=N.
     pub fn probabilities(&self) -> Vec<f64> {
         let total = self.sums().total;
         self.all_weights().map(|weight| (weight / total).to_f64()).collect()
@@ -144,7 +145,8 @@ impl Law {
         self.weights().map(|weights| weights.moment() / Scaled::from(weights.k))
     }
 
-    /// Returns the part of one of the five classes in P(X = k), k = 1..=N. For five classes.
+    /// Returns the share of one class of circuits in P(X = k), for k = 1..=N; the sample space must
+    /// have the five classes.
     pub fn contribution(&self, class: &higher_order::Class) -> Vec<f64> {
         let total = self.sums().total;
         let extra = (0..class.excess()).fold(Scaled::ONE, |w, _| w * self.p);
@@ -172,7 +174,7 @@ mod tests {
     fn weights_fall_from_where_their_ratio_is_below_one() {
         for (space, first) in [(SampleSpace::Simple, 7), (SampleSpace::FiveClasses, 8)] {
             let law = Law::new(space, 10, 0.25).unwrap();
-            let falls: Vec<bool> = law.weights().map(|of| of.falls_from_here()).collect();
+            let falls: Vec<bool> = law.weights().map(|weights| weights.falls_from_here()).collect();
             assert_eq!(falls.iter().position(|&falls| falls), Some(first - 1), "{falls:?}");
         }
     }

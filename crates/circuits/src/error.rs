@@ -3,11 +3,13 @@
 pub use impact_chain::Error;
 use std::fmt::Debug;
 
+/// Creates the error of a wrong argument.
 pub(crate) fn refused(field: &str, problem: String, remedy: String) -> Error {
     Error::Input { field: field.into(), problem, remedy }
 }
 
-pub(crate) fn within<T: PartialOrd + Debug>(
+/// Refuses an argument outside [low, high].
+pub(crate) fn check_range<T: PartialOrd + Debug>(
     field: &str,
     x: T,
     low: T,

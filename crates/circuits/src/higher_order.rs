@@ -2,7 +2,7 @@
 //!
 //! The printed formulas divide the number of sequences by their length, which is right only where
 //! no sequence repeats a shorter one. [`SampleSpace::FiveClasses`] counts distinct circuits. An
-//! exact count is none where it does not fit into 128 bits.
+//! exact count is `None` where it does not fit into 128 bits.
 
 use impact_numerics::double_double::DoubleDouble;
 
@@ -128,7 +128,7 @@ impl Class {
         self.repeats.iter().enumerate().map(|(i, delta)| (i + 1) * delta).sum()
     }
 
-    /// Returns the number of different vertices of circuits of length k, or none if k is too short.
+    /// Returns the number of different vertices of circuits of length k, `None` if k is too short.
     pub fn different(&self, k: usize) -> Option<usize> {
         let repeated: usize = self.repeats.iter().sum();
         k.checked_sub(self.excess()).filter(|d| *d >= repeated.max(1))

@@ -19,7 +19,7 @@
 //!
 //! p_rest = (2/π) ∫_0^{π/2} exp(−(|ω² − Ω²| d/(2σ))²/(1 + √(cos²θ + (Ω/ω)² sin²θ))²) dθ.
 
-use crate::error::{Error, refused, within};
+use crate::error::{Error, check_range, refused};
 use impact_chain::Chain;
 use impact_numerics::double_double::DoubleDouble;
 use impact_numerics::quadrature::GaussLegendre;
@@ -92,11 +92,11 @@ const NEARLY_ONE: f64 = 0.01;
 impl ImpactProbability {
     /// Creates the law of masses d = `spacing` apart, with frequencies ω and `forcing` = Ω ≠ ω.
     pub fn new(sigma: f64, spacing: f64, omega: f64, forcing: f64) -> Result<Self, Error> {
-        within("sigma", sigma, 1e-300, 1e6)?;
+        check_range("sigma", sigma, 1e-300, 1e6)?;
         // The ranges of a scenario.
-        within("spacing", spacing, 1e-6, 1e6)?;
-        within("omega", omega, 1e-3, 1e3)?;
-        within("forcing-frequency", forcing, 1e-3, 1e3)?;
+        check_range("spacing", spacing, 1e-6, 1e6)?;
+        check_range("omega", omega, 1e-3, 1e3)?;
+        check_range("forcing-frequency", forcing, 1e-3, 1e3)?;
         // Both squares are exact to 106 bits.
         let difference = squared(omega) - squared(forcing);
         let detuning = if difference.hi < 0.0 { -difference } else { difference };
@@ -280,5 +280,14 @@ mod tests {
             let off = law.p_by_double_integral(3) - law.p().unwrap();
             assert!(off.abs() < 1e-12, "{off}");
         }
+    }
+
+    /// The mean of exp(−2x sin² θ) is e^−x I₀(x), for a large x (2πx)^−½ (1 + 1/8x + …): a spike.
+    #[test]
+    fn the_mean_of_a_spike_is_a_bessel_function() {
+        let x = 1e6_f64;
+        let mean = half_period_mean(|theta| (-2.0 * x * theta.sin().powi(2)).exp());
+        let exact = (1.0 + 0.125 / x + 9.0 / (128.0 * x * x)) / (std::f64::consts::TAU * x).sqrt();
+        assert!((mean / exact - 1.0).abs() < 1e-13, "{mean} {exact}");
     }
 }

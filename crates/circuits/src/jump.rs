@@ -36,7 +36,7 @@ pub fn rises(big_n: usize, p: f64, k: usize) -> bool {
 
 /// **Eq. (13)**
 ///
-/// Returns the zeros k− ≤ k+ of f_{N,p}, or none when it has none (p below p_crit, or p = 0).
+/// Returns the zeros k− ≤ k+ of f_{N,p}, or `None` if it has none (p below p_crit, or p = 0).
 /// The smaller one comes from k− k+ = 1/p, since the printed difference would cancel.
 pub fn zeros(big_n: usize, p: f64) -> Option<[f64; 2]> {
     let b = two_product(p, big_n as f64) - DoubleDouble::ONE;
@@ -82,7 +82,7 @@ pub fn step(big_n: usize, k: usize) -> f64 {
 }
 
 /// Returns the first local maximum of Φ as p grows: its k > 1, and its p as a fraction, a little
-/// above p_crit unless k+ is an integer there. None for N < 3.
+/// above p_crit unless k+ is an integer there. `None` for N < 3.
 pub fn first_local_maximum(big_n: usize) -> Option<(usize, [usize; 2])> {
     // (k + 1)/(k (N − k)) over k: compare as integers, exactly.
     let parts = |k: usize| [k + 1, k * (big_n - k)];
@@ -170,7 +170,8 @@ pub fn limit_share(p_big_n: f64) -> f64 {
     (1.0 - 1.0 / p_big_n).max(0.0)
 }
 
-/// Returns the larger root of k² = 2 N (ln k − 1), about k* after its jump; none for N ≤ e³ (ours).
+/// Returns the larger root of k² = 2 N (ln k − 1), about k* after its jump, or `None` for N ≤ e³
+/// (ours).
 pub fn jump_rule(big_n: usize) -> Option<f64> {
     let big_n = big_n as f64;
     let beyond = |k: f64| k * k >= 2.0 * big_n * (pxfm::f_log(k) - 1.0);

@@ -68,19 +68,19 @@ fn curve(chain: &Chain, time: f64) -> ([f64; 2], [f64; 2]) {
     let scale = 1.0 / (omega * omega - big_omega * big_omega);
     let (sin, cos) = pxfm::f_sincos(omega * time);
     let (forced_sin, forced_cos) = pxfm::f_sincos(big_omega * time);
-    let at = [cos - forced_cos, big_omega / omega * sin - forced_sin];
+    let point = [cos - forced_cos, big_omega / omega * sin - forced_sin];
     let slope = [big_omega * forced_sin - omega * sin, big_omega * (cos - forced_cos)];
-    (at.map(|x| scale * x), slope.map(|x| scale * x))
+    (point.map(|x| scale * x), slope.map(|x| scale * x))
 }
 
-fn along([x, y]: [f64; 2], [cos, sin]: [f64; 2]) -> f64 {
+fn dot([x, y]: [f64; 2], [cos, sin]: [f64; 2]) -> f64 {
     x * cos + y * sin
 }
 
 impl Reach {
     /// Computes the reach within each of some rising times, rounded down to eighths of 1/ω. Maxima
     /// are exact to rounding, except two of them less than an eighth apart.
-    pub fn within(chain: &Chain, times: &[f64], angles: usize) -> Vec<Reach> {
+    pub fn within_times(chain: &Chain, times: &[f64], angles: usize) -> Vec<Reach> {
         let step = 1.0 / (STEPS as f64 * chain.natural_frequency);
         let directions: Vec<[f64; 2]> = directions(angles).collect();
         let mut radii = vec![0.0_f64; angles];
@@ -91,13 +91,13 @@ impl Reach {
                 let (from, until) = (i as f64 * step, (i + 1) as f64 * step);
                 let after = curve(chain, until);
                 for (radius, direction) in radii.iter_mut().zip(&directions) {
-                    let [rises, falls] = [before.1, after.1].map(|slope| along(slope, *direction));
-                    *radius = radius.max(along(after.0, *direction));
+                    let [rises, falls] = [before.1, after.1].map(|slope| dot(slope, *direction));
+                    *radius = radius.max(dot(after.0, *direction));
                     // Between a rise and a fall the values stay below both tangents.
-                    let most = along(before.0, *direction) + rises * step;
+                    let most = dot(before.0, *direction) + rises * step;
                     if rises > 0.0 && falls < 0.0 && most > *radius {
-                        let top = top(chain, *direction, from, until);
-                        *radius = radius.max(along(curve(chain, top).0, *direction));
+                        let time = turning_time(chain, *direction, from, until);
+                        *radius = radius.max(dot(curve(chain, time).0, *direction));
                     }
                 }
                 (before, i) = (after, i + 1);
@@ -108,7 +108,7 @@ impl Reach {
     }
 
     /// Computes the reach in unlimited time, for frequencies that have no common multiple.
-    pub fn ever(chain: &Chain, angles: usize) -> Reach {
+    pub fn in_unlimited_time(chain: &Chain, angles: usize) -> Reach {
         let (omega, big_omega) = (chain.natural_frequency, chain.forcing_frequency);
         let scale = 1.0 / (omega * omega - big_omega * big_omega).abs();
         let ratio = big_omega / omega;
@@ -123,12 +123,13 @@ impl Reach {
             let least = spacing / radius;
             pxfm::f_exp(-0.5 * least * least / variance)
         };
-        let all = self.radii.iter().filter(|radius| **radius > 0.0).map(beyond);
-        all.fold(0.0, |sum, x| sum + x) / self.radii.len() as f64
+        let chances = self.radii.iter().filter(|radius| **radius > 0.0).map(beyond);
+        chances.fold(0.0, |sum, chance| sum + chance) / self.radii.len() as f64
     }
 }
 
-/// Lists |ω² − Ω²| (R₁ + R₂) of each gap from rest between bodies with these forces; wall: zero.
+/// Lists |ω² − Ω²| (R₁ + R₂) of each gap between bodies that start at rest under these forces; the
+/// force of a wall is zero.
 pub fn pulls(chain: &Chain, bodies: &[[f64; 2]]) -> impl Iterator<Item = f64> {
     let ratio = chain.forcing_frequency / chain.natural_frequency;
     bodies.windows(2).map(move |pair| {
@@ -152,18 +153,18 @@ fn directions(angles: usize) -> impl Iterator<Item = [f64; 2]> {
 }
 
 /// Returns when the curve turns back in a direction, between a rise and a fall.
-fn top(chain: &Chain, direction: [f64; 2], mut from: f64, mut until: f64) -> f64 {
+fn turning_time(chain: &Chain, direction: [f64; 2], mut from: f64, mut until: f64) -> f64 {
     // The slope is nearly straight: false position, and a bisection now and then moves both ends.
-    let slope = |time: f64| along(curve(chain, time).1, direction);
+    let slope = |time: f64| dot(curve(chain, time).1, direction);
     let (mut rises, mut falls) = (slope(from), slope(until));
     for round in 0..24 {
         let share = if round % 3 == 2 { 0.5 } else { rises / (rises - falls) };
         let time = from + share * (until - from);
-        let found = slope(time);
-        if found.abs() <= 1e-9 || time <= from || time >= until {
+        let rate = slope(time);
+        if rate.abs() <= 1e-9 || time <= from || time >= until {
             return time;
         }
-        if found > 0.0 { (from, rises) = (time, found) } else { (until, falls) = (time, found) }
+        if rate > 0.0 { (from, rises) = (time, rate) } else { (until, falls) = (time, rate) }
     }
     0.5 * (from + until)
 }
@@ -172,7 +173,7 @@ fn top(chain: &Chain, direction: [f64; 2], mut from: f64, mut until: f64) -> f64
 const POINTS: usize = 20;
 
 /// Returns the probability that two neighbours of variances v_1, v_2 both close by themselves.
-fn both(reach: &Reach, spacing: f64, sigma: f64, [v_1, v_2]: [f64; 2]) -> f64 {
+fn pair_probability(reach: &Reach, spacing: f64, sigma: f64, [v_1, v_2]: [f64; 2]) -> f64 {
     let rule = GaussLegendre::new(POINTS);
     let shared = sigma * sigma;
     let determinant = v_1 * v_2 - shared * shared;
@@ -224,8 +225,8 @@ impl Chances {
         Chances {
             p: reach.probability(d, mass),
             wall: reach.probability(d, wall),
-            pair: both(reach, d, sigma, [mass, mass]),
-            wall_pair: both(reach, d, sigma, [wall, mass]),
+            pair: pair_probability(reach, d, sigma, [mass, mass]),
+            wall_pair: pair_probability(reach, d, sigma, [wall, mass]),
         }
     }
 
@@ -251,7 +252,7 @@ impl Chances {
 }
 
 /// Returns the σ at which half of such chains have a gap that closes by itself, to about 1e-6.
-pub fn half(chain: &Chain, reach: &Reach) -> f64 {
+pub fn sigma_of_half(chain: &Chain, reach: &Reach) -> f64 {
     let chances = |sigma: f64| Chances::new(chain, reach, sigma);
     let share = |sigma: f64| chances(sigma).at_least_one(chain.masses, chain.boundary);
     let logarithms = [0.02, 2.0].map(|times: f64| pxfm::f_log(times * chain.spacing));
@@ -262,13 +263,13 @@ pub fn half(chain: &Chain, reach: &Reach) -> f64 {
 mod tests {
     use super::*;
     use crate::impact_probability::ImpactProbability;
-    use impact_chain::NormalPairs;
+    use impact_chain::{NormalPairs, Seed};
 
     /// With ω = 1, Ω = 3 the curve is −½ sin² t (cos t, sin t).
     #[test]
     fn the_reach_of_a_closed_curve() {
         let chain = Chain { forcing_frequency: 3.0, ..Chain::default() };
-        let [early, late] = &Reach::within(&chain, &[2.0, 5.0], 4)[..] else { panic!() };
+        let [early, late] = &Reach::within_times(&chain, &[2.0, 5.0], 4)[..] else { panic!() };
         let most = 1.0 / 27.0_f64.sqrt();
         for (reach, exact) in [(early, [0.0, 0.0, most, 0.5]), (late, [most, 0.5, most, 0.5])] {
             let off = |i: usize| (reach.radii[i] - exact[i]).abs();
@@ -280,17 +281,17 @@ mod tests {
     fn no_sample_of_the_curve_lies_beyond_its_reach() {
         let chain = Chain::default();
         let times = [5.0, 40.0, 300.0];
-        let reaches = Reach::within(&chain, &times, 90);
-        let ever = Reach::ever(&chain, 90);
+        let reaches = Reach::within_times(&chain, &times, 90);
+        let ever = Reach::in_unlimited_time(&chain, 90);
         let samples: Vec<_> = (0..=300_000).map(|i| curve(&chain, f64::from(i) * 1e-3).0).collect();
         for (time, reach) in times.iter().zip(&reaches) {
             for (angle, direction) in directions(90).enumerate() {
                 let sampled = samples[..=(time * 1e3) as usize].iter();
-                let sampled = sampled.map(|at| along(*at, direction)).fold(0.0, f64::max);
-                let found = reach.radii[angle];
+                let sampled = sampled.map(|point| dot(*point, direction)).fold(0.0, f64::max);
+                let radius = reach.radii[angle];
                 // Samples 10⁻³ apart miss at most |E″| 10⁻⁶/8.
-                assert!((0.0..1e-6).contains(&(found - sampled + 1e-12)), "{time} {angle}");
-                assert!(found <= ever.radii[angle] + 1e-12);
+                assert!((0.0..1e-6).contains(&(radius - sampled + 1e-12)), "{time} {angle}");
+                assert!(radius <= ever.radii[angle] + 1e-12);
             }
         }
     }
@@ -306,8 +307,8 @@ mod tests {
             (1, Boundary::Walls, -0.98_f64.ln()),
             (2, Boundary::Ring, -0.9_f64.ln()),
         ] {
-            let found = chances.at_least_one(masses, boundary);
-            assert!((found - (1.0 - (-clumps).exp())).abs() < 1e-15, "{masses}: {found}");
+            let share = chances.at_least_one(masses, boundary);
+            assert!((share - (1.0 - (-clumps).exp())).abs() < 1e-15, "{masses}: {share}");
         }
     }
 
@@ -320,8 +321,8 @@ mod tests {
         let chain = Chain { forcing_frequency: 2.0, spacing: 1.5, ..Chain::default() };
         let pulls: Vec<f64> = pulls(&chain, &[[0.0; 2], [3.0, 4.0], [2.0, 4.0]]).collect();
         assert_eq!((pulls, closing_pull(&chain)), (vec![73.0_f64.sqrt() + 5.0, 2.0], 4.5));
-        let reach = Reach::ever(&chain, COARSE);
-        let share = Chances::new(&chain, &reach, half(&chain, &reach))
+        let reach = Reach::in_unlimited_time(&chain, COARSE);
+        let share = Chances::new(&chain, &reach, sigma_of_half(&chain, &reach))
             .at_least_one(chain.masses, chain.boundary);
         assert!((share - 0.5).abs() < 1e-4, "{share}");
     }
@@ -332,8 +333,8 @@ mod tests {
     fn two_neighbours_close_as_often_as_in_draws_of_their_forces() {
         let (chain, sigma, draws) = (Chain::default(), 0.6, 200_000);
         let radii = directions(ANGLES).map(|[cos, _]| 1.0 + 0.5 * cos).collect();
-        let found = Chances::new(&chain, &Reach { radii }, sigma);
-        let mut normals = NormalPairs::new("neighbours", 1, 0);
+        let chances = Chances::new(&chain, &Reach { radii }, sigma);
+        let mut normals = NormalPairs::new("neighbours", Seed(1), 0);
         let mut counts = [0_u32; 4];
         for _ in 0..draws {
             let [a, b, c] = [normals.pair(), normals.pair(), normals.pair()];
@@ -342,13 +343,13 @@ mod tests {
                 x.hypot(y) + 0.5 * x >= chain.spacing
             };
             let [wall, first, second] = [closes([0.0; 2], a), closes(a, b), closes(b, c)];
-            let all = [first, wall, first && second, wall && first];
-            counts = std::array::from_fn(|i| counts[i] + u32::from(all[i]));
+            let closed = [first, wall, first && second, wall && first];
+            counts = std::array::from_fn(|i| counts[i] + u32::from(closed[i]));
         }
-        let exact = [found.p, found.wall, found.pair, found.wall_pair];
+        let exact = [chances.p, chances.wall, chances.pair, chances.wall_pair];
         for (count, p) in counts.into_iter().zip(exact) {
             let (share, n) = (f64::from(count) / f64::from(draws), f64::from(draws));
-            assert!((share - p).abs() < 4.0 * (p * (1.0 - p) / n).sqrt(), "{counts:?} {found:?}");
+            assert!((share - p).abs() < 4.0 * (p * (1.0 - p) / n).sqrt(), "{counts:?} {chances:?}");
         }
     }
 
@@ -357,7 +358,7 @@ mod tests {
         let chain = Chain::default();
         for sigma in [0.08, 0.12, 0.2] {
             let law = ImpactProbability::of_paper(sigma).unwrap();
-            let p = Reach::ever(&chain, 256).probability(1.0, 2.0 * sigma * sigma);
+            let p = Reach::in_unlimited_time(&chain, 256).probability(1.0, 2.0 * sigma * sigma);
             assert!((p / law.p_from_rest().unwrap() - 1.0).abs() < 1e-13, "{sigma}: {p}");
         }
     }

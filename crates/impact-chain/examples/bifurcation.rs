@@ -15,7 +15,7 @@ fn samples(amplitude: f64) -> Result<Vec<f64>, Error> {
              "walls": [0, 100], "initial": "zero"}}"#
     ))?;
     let (mut engine, period) = (Engine::new(&scenario)?, TAU / OMEGA);
-    let place = |time| Ok(engine.advance(time).and(engine.positions(time))?[0]);
+    let place = |time| Ok(engine.advance(time).and(engine.state(time))?.positions[0]);
     (2000..2030).map(|k| f64::from(k) * period).map(place).collect()
 }
 

@@ -14,8 +14,10 @@ fn sweep() -> Result<Vec<[f64; 2]>, Error> {
             amplitude * (1.0 - 1.5 * 1.5)
         ))?;
         // The force has the same phase after whole periods, so each step starts at t = 0.
-        let mut engine =
-            Engine::from_state(&scenario, last.as_ref().unwrap_or(&State::of(&scenario)))?;
+        let mut engine = Engine::from_state(
+            &scenario,
+            last.as_ref().unwrap_or(&State::from_scenario(&scenario)),
+        )?;
         let impact = engine.impacts(until)?.pop().filter(|impact| impact.time > 0.99 * until);
         rows.push([amplitude, impact.map_or(0.0, |impact| impact.closing_speed)]);
         last = Some(State { time: 0.0, ..engine.state(until)? });

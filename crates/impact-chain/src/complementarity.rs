@@ -4,7 +4,7 @@ use super::flight::Phases;
 use super::force::Force;
 use crate::search::local_frame::Frequencies;
 
-/// Returns for each gap of a run its contact force λ_i, none if it opens or is not `allowed`.
+/// Returns for each gap of a run its contact force λ_i, or `None` if it opens or is not `allowed`.
 ///
 /// Gap i accelerates by g_i + K_i λ_i − λ_{i−1} − λ_{i+1}, where K_i is `inverse_mass` and λ_i ≥ 0
 /// the contact force; a shut gap needs acceleration ≥ 0, and λ_i = 0 where it is > 0. The matrix is
@@ -118,8 +118,8 @@ mod tests {
             let mut g = vec![outer, middle, outer];
             g.resize(gaps, Force::ZERO);
             let allowed: Vec<bool> = (0..gaps).map(|gap| gap < 3).collect();
-            let found = contact_forces(&g, &vec![2.0; gaps], &allowed, &p, &frequencies);
-            assert_eq!(found[1].is_some(), is_shut, "{part}: {found:?}");
+            let forces = contact_forces(&g, &vec![2.0; gaps], &allowed, &p, &frequencies);
+            assert_eq!(forces[1].is_some(), is_shut, "{part}: {forces:?}");
         }
     }
 }

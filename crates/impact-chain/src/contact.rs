@@ -34,15 +34,16 @@ pub(super) const CONTACT_SPEED: f64 = 1e-10;
 const SETTLED_RATE: f64 = 10.0 * CONTACT_SPEED;
 const SETTLED_WIDTH: f64 = 1e-16;
 
+/// A gap after a change of its rate.
 #[derive(Clone, Copy)]
 struct Changed {
     width: f64,
     rate: f64,
     /// Whether it is shut and slow, so that its run takes a common velocity.
-    settled: bool,
+    is_settled: bool,
 }
 
-const STILL: Changed = Changed { width: 0.0, rate: 0.0, settled: true };
+const STILL: Changed = Changed { width: 0.0, rate: 0.0, is_settled: true };
 
 impl<const M: usize> Simulation<M> {
     /// Decides whether the impact of gap k is so slow that contact may begin, or hits a cluster.
@@ -73,16 +74,16 @@ impl<const M: usize> Simulation<M> {
         for near in freed {
             let rate = self.jump_of_gap(near, k, jumps);
             let joined = inelastic && self.joined.1.contains(&near);
-            let settled = joined || self.is_settled(0.0, rate);
-            changed.insert(near, Changed { width: 0.0, rate, settled });
+            let is_settled = joined || self.is_settled(0.0, rate);
+            changed.insert(near, Changed { width: 0.0, rate, is_settled });
         }
-        changed.insert(k, Changed { width: 0.0, rate, settled: self.is_settled(0.0, rate) });
+        changed.insert(k, Changed { width: 0.0, rate, is_settled: self.is_settled(0.0, rate) });
         for near in self.topology.near(k) {
             if let Entry::Vacant(place) = changed.entry(near) {
                 let jump = self.jump_of_gap(near, k, jumps);
                 let mut gap = self.changed(near, phases, jump);
                 let joined = inelastic && self.joined.1.contains(&near);
-                gap.settled |= joined && self.is_settled(gap.width, gap.rate - jump);
+                gap.is_settled |= joined && self.is_settled(gap.width, gap.rate - jump);
                 place.insert(gap);
             }
         }
@@ -106,7 +107,7 @@ impl<const M: usize> Simulation<M> {
     fn changed(&self, k: usize, phases: &Phases<M>, jump: f64) -> Changed {
         let frame = self.frame_of(k, phases);
         let [width, rate] = self.carried(k, &frame, jump).unwrap_or([frame.f0, frame.g0]);
-        Changed { width, rate, settled: self.is_settled(width, rate) }
+        Changed { width, rate, is_settled: self.is_settled(width, rate) }
     }
 
     fn is_settled(&self, width: f64, rate: f64) -> bool {
@@ -117,38 +118,38 @@ impl<const M: usize> Simulation<M> {
     /// Grows gaps that have just changed to runs of shut and slow gaps, settles and reframes them.
     fn settle_runs(
         &mut self,
-        mut known: BTreeMap<usize, Changed>,
+        mut changed: BTreeMap<usize, Changed>,
         p: &Phases<M>,
         released: Option<usize>,
     ) {
         // Grow by neighbours of settled gaps that are shut and slow too, or in contact.
-        let mut order: Vec<usize> = known.keys().copied().collect();
+        let mut order: Vec<usize> = changed.keys().copied().collect();
         let mut next = 0;
         while let Some(&k) = order.get(next) {
             next += 1;
-            if !known[&k].settled {
+            if !changed[&k].is_settled {
                 continue;
             }
             for near in self.topology.near(k) {
-                if known.contains_key(&near) {
+                if changed.contains_key(&near) {
                     continue;
                 }
                 if self.gaps[near].in_contact {
                     // Settling moves its masses, so its cluster is freed first.
                     for freed in self.free_cluster(near, p) {
-                        known.insert(freed, STILL);
+                        changed.insert(freed, STILL);
                         order.push(freed);
                     }
                 } else {
-                    known.insert(near, self.changed(near, p, 0.0));
+                    changed.insert(near, self.changed(near, p, 0.0));
                     order.push(near);
                 }
             }
         }
         // The jumps of the rates of the gaps next to the runs.
         let mut jumps: BTreeMap<usize, f64> = BTreeMap::new();
-        for run in self.runs(&known) {
-            let rates: Vec<f64> = run.iter().map(|k| known[k].rate).collect();
+        for run in self.runs(&changed) {
+            let rates: Vec<f64> = run.iter().map(|k| changed[k].rate).collect();
             let [first, last] = self.settle_run(&run, &rates, p, released);
             let before = self.topology.adjacent(run[0])[0].map(|near| (near, first));
             let after = self.topology.adjacent(run[run.len() - 1])[1].map(|near| (near, -last));
@@ -156,19 +157,19 @@ impl<const M: usize> Simulation<M> {
                 *jumps.entry(near).or_default() += jump;
             }
             if run.len() > 1 {
-                known.extend(run.into_iter().map(|k| (k, STILL)));
+                changed.extend(run.into_iter().map(|k| (k, STILL)));
             }
         }
         let jump = |k: usize| jumps.get(&k).copied().unwrap_or(0.0);
         // The motions are final now: take the frames of all other gaps that were touched.
-        for (&k, gap) in &known {
+        for (&k, gap) in &changed {
             if !self.gaps[k].in_contact {
                 self.set_and_search(k, p, gap.width, gap.rate + jump(k));
             }
         }
-        for &k in known.keys() {
+        for &k in changed.keys() {
             for near in self.topology.near(k) {
-                if !known.contains_key(&near) && !self.gaps[near].in_contact {
+                if !changed.contains_key(&near) && !self.gaps[near].in_contact {
                     self.renew_and_search(near, p, jump(near));
                 }
             }
@@ -180,28 +181,28 @@ impl<const M: usize> Simulation<M> {
     fn note_contacts(&mut self) {
         let (mut freed, stuck) = (take(&mut self.freed), take(&mut self.stuck));
         freed.retain(|&k| !self.gaps[k].in_contact);
-        let (at, time) = (self.now, self.time(self.now));
+        let (instant, time) = (self.now, self.time(self.now));
         let [freed, stuck] = [freed, stuck].map(|mut gaps| {
             gaps.sort_unstable();
             gaps.iter().map(|&k| self.topology.label(k)).collect::<Vec<usize>>()
         });
         if !freed.is_empty() {
             let event = Event::Release { time, gaps: freed };
-            self.waiting.push(Waiting { at, dip: None, event });
+            self.waiting.push(Waiting { instant, dip: None, event });
         }
         if !stuck.is_empty() {
             let event = Event::Stick { time, gaps: stuck };
-            self.waiting.push(Waiting { at, dip: None, event });
+            self.waiting.push(Waiting { instant, dip: None, event });
         }
     }
 
     /// Lists the maximal runs of settled gaps from the left; on a ring one may pass the last gap.
-    fn runs(&self, known: &BTreeMap<usize, Changed>) -> Vec<Vec<usize>> {
+    fn runs(&self, changed: &BTreeMap<usize, Changed>) -> Vec<Vec<usize>> {
         let follows = |run: &[usize], k: usize| {
             run.last().is_some_and(|last| self.topology.adjacent(*last)[1] == Some(k))
         };
         let mut runs: Vec<Vec<usize>> = Vec::new();
-        for (&k, _) in known.iter().filter(|(_, gap)| gap.settled) {
+        for (&k, _) in changed.iter().filter(|(_, gap)| gap.is_settled) {
             match runs.last_mut() {
                 Some(run) if follows(run, k) => run.push(k),
                 _ => runs.push(vec![k]),
@@ -326,15 +327,16 @@ impl<const M: usize> Simulation<M> {
             if self.topology.is_wall(m) {
                 continue;
             }
-            let was = self.motions[m];
+            let common = self.motions[m];
             let offset = self.shifts[m];
             let alone = Motion { forced: self.forced[m], offset, ..Motion::STILL };
-            let (parts, parts_alone) = (was.parts(p), alone.parts(p));
-            let (mut u, mut quadrature) = (was.offset - offset + parts.u, parts.u_quadrature);
-            for (i, (was, alone)) in parts.forced.iter().zip(parts_alone.forced).enumerate() {
+            let (parts, parts_alone) = (common.parts(p), alone.parts(p));
+            let (mut u, mut quadrature) = (common.offset - offset + parts.u, parts.u_quadrature);
+            for (i, (common, alone)) in parts.forced.iter().zip(parts_alone.forced).enumerate() {
                 let frequencies = &self.search.frequencies;
-                u += was[0] - alone[0];
-                quadrature += frequencies.big_omegas[i] / frequencies.omega * (was[1] - alone[1]);
+                let ratio = frequencies.big_omegas[i] / frequencies.omega;
+                u += common[0] - alone[0];
+                quadrature += ratio * (common[1] - alone[1]);
             }
             self.motions[m] = alone;
             self.motions[m].set_free(u, quadrature, p);

@@ -4,7 +4,7 @@
 
 use crate::search::outcome::Graze;
 use crate::topology::Topology;
-use crate::{Chain, End, Engine, Error, Event, Impact, LATEST, within};
+use crate::{Chain, End, Engine, Error, Event, Impact, LATEST, check_range};
 #[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow::{Break, Continue};
@@ -36,6 +36,7 @@ impl Default for Protocol {
 
 impl Protocol {
     /// Returns the end of the window, T + W.
+    #[must_use]
     pub fn end(&self) -> f64 {
         self.transient + self.window
     }
@@ -45,7 +46,8 @@ impl Protocol {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Counts {
-    /// Different gaps with an impact, by window and realisation; none of a run that ended before.
+    /// Different gaps with an impact, by window and realisation, or `None` if the run ended before
+    /// the window.
     pub distinct: Vec<Vec<Option<u32>>>,
     /// Impacts in each window, of each realisation.
     pub impacts: Vec<Vec<u64>>,
@@ -77,7 +79,7 @@ pub struct Total {
     pub simultaneous: u64,
     /// Dips of gaps of which rounding cannot tell whether they reach zero.
     pub undecided: u64,
-    /// The first of these, with the number of its realisation.
+    /// The first of these with the index of its realisation, or `None` if there is no such dip.
     pub first_graze: Option<(u64, Graze)>,
 }
 
@@ -96,27 +98,27 @@ impl Total {
     }
 }
 
-/// Appends each row of `next` to the row of the same window.
-fn extend<T>(rows: &mut [Vec<T>], next: Vec<Vec<T>>) {
-    for (row, next) in rows.iter_mut().zip(next) {
-        row.extend(next);
+/// Appends the values of later realisations to the row of each window.
+fn append<T>(rows: &mut [Vec<T>], later_rows: Vec<Vec<T>>) {
+    for (row, later) in rows.iter_mut().zip(later_rows) {
+        row.extend(later);
     }
 }
 
 impl FromIterator<Counts> for Counts {
-    fn from_iter<I: IntoIterator<Item = Counts>>(all: I) -> Self {
-        let mut all = all.into_iter();
-        let mut whole = all.next().unwrap_or_default();
-        for one in all {
-            extend(&mut whole.distinct, one.distinct);
-            extend(&mut whole.impacts, one.impacts);
-            extend(&mut whole.masses, one.masses);
-            whole.rejected += one.rejected;
-            whole.failed += one.failed;
-            whole.by_engine += one.by_engine;
-            whole.total.add(&one.total);
+    fn from_iter<I: IntoIterator<Item = Counts>>(parts: I) -> Self {
+        let mut parts = parts.into_iter();
+        let mut joined = parts.next().unwrap_or_default();
+        for part in parts {
+            append(&mut joined.distinct, part.distinct);
+            append(&mut joined.impacts, part.impacts);
+            append(&mut joined.masses, part.masses);
+            joined.rejected += part.rejected;
+            joined.failed += part.failed;
+            joined.by_engine += part.by_engine;
+            joined.total.add(&part.total);
         }
-        whole
+        joined
     }
 }
 
@@ -131,7 +133,7 @@ pub struct Watch {
     /// `firsts[transient][gap]`: time of the gap's first impact after the transient, or infinite.
     firsts: Vec<Vec<f64>>,
     /// For each gap the number of transients whose first impact is known.
-    known: Vec<usize>,
+    firsts_known: Vec<usize>,
     /// Times at which windows begin or end, up to the end of the run.
     edges: Vec<f64>,
     /// Impacts until each edge that has passed.
@@ -147,6 +149,7 @@ fn rising(times: impl Iterator<Item = f64>) -> Vec<f64> {
 
 impl Watch {
     /// Creates the counts of a run of this chain, all of them zero.
+    #[must_use]
     pub fn new(chain: &Chain, windows: &[Protocol]) -> Self {
         let gaps = chain.gaps();
         let transients = rising(windows.iter().map(|window| window.transient));
@@ -156,7 +159,7 @@ impl Watch {
             total: Total::default(),
             last: vec![f64::NEG_INFINITY; gaps],
             firsts: vec![vec![f64::INFINITY; gaps]; transients.len()],
-            known: vec![0; gaps],
+            firsts_known: vec![0; gaps],
             transients,
             edges: Vec::new(),
             passed: Vec::new(),
@@ -169,15 +172,15 @@ impl Watch {
     /// # Errors
     /// [`Error::Input`] for windows that end after [`LATEST`], and for an end that is no number.
     pub(crate) fn begin(&mut self, until: f64) -> Result<Option<f64>, Error> {
-        within("until", until, f64::NEG_INFINITY, f64::INFINITY)?;
+        check_range("until", until, f64::NEG_INFINITY, f64::INFINITY)?;
         let ends = self.windows.iter().map(Protocol::end);
         self.edges = rising(self.transients.iter().copied().chain(ends));
-        self.edges.iter().try_for_each(|&edge| within("windows", edge, -LATEST, LATEST))?;
+        self.edges.iter().try_for_each(|&edge| check_range("windows", edge, -LATEST, LATEST))?;
         self.edges.retain(|edge| *edge <= until);
         self.passed.clear();
         self.total = Total::default();
         self.last.fill(f64::NEG_INFINITY);
-        self.known.fill(0);
+        self.firsts_known.fill(0);
         self.firsts.iter_mut().for_each(|firsts| firsts.fill(f64::INFINITY));
         Ok(self.edges.last().copied())
     }
@@ -191,7 +194,7 @@ impl Watch {
         let gaps = self.last.len();
         // On a ring gap n lies between masses n and 1: modulo n it is the neighbour of gap 1.
         let gap = if impact.gap < gaps { impact.gap } else { impact.gap - gaps };
-        let known = &mut self.known[gap];
+        let known = &mut self.firsts_known[gap];
         while self.transients.get(*known).is_some_and(|&transient| impact.time > transient) {
             self.firsts[*known][gap] = impact.time;
             *known += 1;
@@ -275,11 +278,11 @@ impl Watch {
         self.passed.resize(self.edges.len(), self.total.impacts);
         let mut counts = Counts { total: self.total.clone(), ..self.incomplete() };
         for (place, window) in self.windows.iter().enumerate() {
-            let edge = |time: f64| self.passed.get(self.edges.partition_point(|at| *at < time));
+            let edge = |time: f64| self.passed.get(self.edges.partition_point(|edge| *edge < time));
             let Some((begin, end)) = edge(window.transient).zip(edge(window.end())) else {
                 continue;
             };
-            let hit = self.hit(window).unwrap_or_default();
+            let hit = self.gaps_hit(window).unwrap_or_default();
             counts.distinct[place] = vec![Some(hit.iter().map(|&hit| u32::from(hit)).sum())];
             counts.impacts[place] = vec![end - begin];
             counts.masses[place] = vec![masses_hit(&self.topology, &hit)];
@@ -288,9 +291,10 @@ impl Watch {
     }
 
     /// Returns which gaps had an impact in one of the windows, or `None` for another window.
-    pub fn hit(&self, window: &Protocol) -> Option<Vec<bool>> {
+    #[must_use]
+    pub fn gaps_hit(&self, window: &Protocol) -> Option<Vec<bool>> {
         self.windows.iter().find(|one| *one == window)?;
-        let transient = self.transients.partition_point(|at| *at < window.transient);
+        let transient = self.transients.partition_point(|time| *time < window.transient);
         Some(self.firsts[transient].iter().map(|&time| time <= window.end()).collect())
     }
 }
@@ -304,7 +308,7 @@ fn masses_hit(topology: &Topology, hit: &[bool]) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Boundary, NormalPairs, Scenario};
+    use crate::{Boundary, NormalPairs, Scenario, Seed};
 
     /// Gaps 0 and 4 of four masses are at walls; on a ring of five, gap 0 joins the last and first.
     #[test]
@@ -317,8 +321,8 @@ mod tests {
             ([true; 5], 4, 5),
             ([false; 5], 0, 0),
         ] {
-            let found = [Topology::new(4, Boundary::Walls), Topology::new(5, Boundary::Ring)];
-            assert_eq!(found.map(|topology| masses_hit(&topology, &hit)), [row, ring], "{hit:?}");
+            let both = [Topology::new(4, Boundary::Walls), Topology::new(5, Boundary::Ring)];
+            assert_eq!(both.map(|topology| masses_hit(&topology, &hit)), [row, ring], "{hit:?}");
         }
     }
 
@@ -326,26 +330,27 @@ mod tests {
     #[test]
     fn a_run_is_counted_alone_and_for_its_own_chain() {
         let chain = Chain { masses: 3, ..Chain::default() };
-        let of = |chain: &Chain, index| {
-            Engine::new(&Scenario::draw(chain, 0.4, &mut NormalPairs::new("watch", 1, index)))
+        let engine = |chain: &Chain, index| {
+            Engine::new(&Scenario::draw(chain, 0.4, &mut NormalPairs::new("watch", Seed(1), index)))
         };
         let [window, other] = [5.0, 6.0].map(|transient| Protocol { transient, window: 20.0 });
         let windows = [window, Protocol { transient: 9.0, window: 1.0 }];
         let mut watch = Watch::new(&chain, &windows);
-        let mut counted = |index| watch.run(of(&chain, index), index, 50.0, &|| false).unwrap();
+        let mut counted = |index| watch.run(engine(&chain, index), index, 50.0, &|| false).unwrap();
         let (first, second) = (counted(0), counted(1));
-        let alone = Watch::new(&chain, &windows).run(of(&chain, 1), 1, 50.0, &|| false).unwrap();
+        let alone =
+            Watch::new(&chain, &windows).run(engine(&chain, 1), 1, 50.0, &|| false).unwrap();
         assert!(second == alone && first.impacts != second.impacts, "{second:?}, {alone:?}");
-        assert!(watch.hit(&window).is_some() && watch.hit(&other).is_none());
+        assert!(watch.gaps_hit(&window).is_some() && watch.gaps_hit(&other).is_none());
         let ring = Chain { boundary: Boundary::Ring, masses: 4, ..chain.clone() };
         for another in [Chain { masses: 2, ..chain.clone() }, ring] {
-            let refused = watch.run(of(&another, 0), 0, 50.0, &|| false).unwrap_err();
+            let refused = watch.run(engine(&another, 0), 0, 50.0, &|| false).unwrap_err();
             assert!(refused.to_string().starts_with("engine: "), "{refused}");
         }
-        assert!(watch.run(of(&chain, 0), 0, f64::NAN, &|| false).is_err());
+        assert!(watch.run(engine(&chain, 0), 0, f64::NAN, &|| false).is_err());
         for length in [f64::NAN, f64::INFINITY, LATEST] {
             let late = [Protocol { transient: 1.0, window: length }];
-            let ran = Watch::new(&chain, &late).run(of(&chain, 0), 0, 50.0, &|| false);
+            let ran = Watch::new(&chain, &late).run(engine(&chain, 0), 0, 50.0, &|| false);
             assert!(ran.unwrap_err().to_string().starts_with("windows: "), "{length}");
         }
     }
@@ -361,8 +366,7 @@ mod tests {
         {
             watch.count(Impact { time, gap, closing_speed });
         }
-        let seen = watch.total;
-        assert_eq!(seen.near, [3, 1, 0, 0, 0, 0, 0, 0, 0]);
-        assert_eq!(seen.slow, [3, 2, 2, 1, 1, 1, 1, 1]);
+        assert_eq!(watch.total.near, [3, 1, 0, 0, 0, 0, 0, 0, 0]);
+        assert_eq!(watch.total.slow, [3, 2, 2, 1, 1, 1, 1, 1]);
     }
 }

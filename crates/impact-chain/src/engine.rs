@@ -10,13 +10,8 @@ use std::ops::ControlFlow::{self, Break, Continue};
 
 /// The simulation of one scenario, from event to event.
 ///
-/// A run ends at a time `until`, at most [`LATEST`](crate::LATEST), or earlier; the next call goes
-/// on from there. An event whose time is `until` is within the run.
-///
-/// # Errors
-/// [`Error::Work`] ends a run that exceeds the bound on work; [`Error::Input`] refuses an end that
-/// is no time up to [`LATEST`](crate::LATEST), and a state that is not between the last event and
-/// the next.
+/// A run ends at a time `until`, or earlier; the next call goes on from there. An event whose time
+/// is `until` is within the run.
 #[derive(Clone, Debug)]
 pub struct Engine(Components);
 
@@ -54,7 +49,7 @@ impl Engine {
     pub fn from_state(scenario: &Scenario, state: &State) -> Result<Engine, Error> {
         scenario.validate()?;
         // Its own start is known to more digits than its positions have.
-        if *state == State::of(scenario) {
+        if *state == State::from_scenario(scenario) {
             return Engine::new(scenario);
         }
         Engine::with_epoch(&state.as_scenario(scenario)?, state.time)
@@ -68,7 +63,10 @@ impl Engine {
         }))
     }
 
-    /// Returns all impacts up to time `until`, in order.
+    /// Returns the further impacts up to time `until`, in order.
+    ///
+    /// # Errors
+    /// Those of [`run`](Engine::run).
     pub fn impacts(&mut self, until: f64) -> Result<Vec<Impact>, Error> {
         let mut impacts = Vec::new();
         self.observe(until, &mut |event, _| {
@@ -80,7 +78,11 @@ impl Engine {
         Ok(impacts)
     }
 
-    /// Returns the next impact up to time `until`, if any; the run stops right after it.
+    /// Returns the next impact up to time `until`, or `None` if there is no impact; the run stops
+    /// right after it.
+    ///
+    /// # Errors
+    /// Those of [`run`](Engine::run).
     pub fn next_impact(&mut self, until: f64) -> Result<Option<Impact>, Error> {
         let mut next = None;
         self.observe(until, &mut |event, _| match event {
@@ -94,12 +96,20 @@ impl Engine {
     }
 
     /// Runs until time `until`; [`state`](Engine::state) then tells where the masses are.
+    ///
+    /// # Errors
+    /// Those of [`run`](Engine::run).
     pub fn advance(&mut self, until: f64) -> Result<(), Error> {
         self.observe(until, &mut |_, _| Continue(())).map(drop)
     }
 
     /// Runs until time `until`, and shows each event to `observer` in order, with the engine right
     /// after it, or stops there if `observer` says so. Events of one instant have the same state.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for an end before the last event or after [`LATEST`](crate::LATEST), and
+    /// [`Error::Work`] for more events than the bound within one unit of time, right before the
+    /// event that exceeds it.
     pub fn run(
         &mut self,
         until: f64,
@@ -123,8 +133,11 @@ impl Engine {
         Ok(End::Reached)
     }
 
-    /// Returns the time of the next event up to `until`, if any, without going there. A gap that
-    /// then closes without speed may leave no event.
+    /// Returns the time of the next event up to `until`, or `None` if there is no event, without
+    /// going there. A gap that then closes without speed may leave no event.
+    ///
+    /// # Errors
+    /// Those of [`run`](Engine::run).
     pub fn next_event_time(&mut self, until: f64) -> Result<Option<f64>, Error> {
         call!(&mut self.0, simulation => simulation.next_time(simulation.end(until)?))
     }
@@ -137,32 +150,30 @@ impl Engine {
     /// Returns positions and velocities at a time from the last event to the next, as that to which
     /// [`run`](Engine::run) ran. At the time of an event it is the state after it.
     /// [`Engine::from_state`] goes on from there.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for any other time.
     pub fn state(&self, time: f64) -> Result<State, Error> {
         call!(&self.0, simulation => simulation.state(time))
     }
 
-    /// Returns the positions x_1..x_n at such a time.
-    pub fn positions(&self, time: f64) -> Result<Vec<f64>, Error> {
-        Ok(self.state(time)?.positions)
-    }
-
-    /// Returns the velocities of the masses 1..n at such a time.
-    pub fn velocities(&self, time: f64) -> Result<Vec<f64>, Error> {
-        Ok(self.state(time)?.velocities)
-    }
-
     /// Returns the free parts (a_j, b_j) of the masses 1..n, from the time of the start on; a
     /// cluster shares one.
+    #[must_use]
     pub fn free_parts(&self) -> Vec<[f64; 2]> {
         call!(&self.0, simulation => simulation.free_parts())
     }
 
     /// Returns the gaps in contact and their contact forces (≥ 0) at a time up to the next event.
+    ///
+    /// # Errors
+    /// Those of [`state`](Engine::state).
     pub fn contacts(&self, time: f64) -> Result<Vec<(usize, f64)>, Error> {
         call!(&self.0, simulation => simulation.contacts(time))
     }
 
     /// Returns the time of the last event; before the first, that of the start.
+    #[must_use]
     pub fn time(&self) -> f64 {
         call!(&self.0, simulation => simulation.event_time)
     }
@@ -172,7 +183,8 @@ impl Engine {
         call!(&self.0, simulation => simulation.work)
     }
 
-    /// Returns the first dip of which rounding could not tell whether it is an impact, if any.
+    /// Returns the first dip of which rounding could not tell whether it is an impact, or `None`.
+    #[must_use]
     pub fn first_graze(&self) -> Option<Graze> {
         call!(&self.0, simulation => simulation.first_graze)
     }
@@ -181,7 +193,7 @@ impl Engine {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Chain, Initial, LATEST, NormalPairs};
+    use crate::{Chain, Initial, LATEST, NormalPairs, Seed};
 
     /// An unforced elastic chain that starts with these free parts.
     fn free(parts: &[[f64; 2]]) -> Scenario {
@@ -201,11 +213,15 @@ mod tests {
         }
         assert!(engine.state(LATEST).is_ok() && engine.state(LATEST.next_up()).is_err());
         assert_eq!(engine.impacts(LATEST), Ok(vec![]));
+        let mut engine = Engine::new(&free(&[[1.0, 1.5]])).unwrap();
+        let time = engine.next_impact(9.0).unwrap().unwrap().time;
+        assert!(engine.advance(time.next_down()).is_err() && engine.advance(time).is_ok());
     }
 
     #[test]
     fn an_impact_is_within_a_run_until_its_time() {
-        let scenario = Scenario::draw(&Chain::default(), 0.3, &mut NormalPairs::new("end", 1, 0));
+        let scenario =
+            Scenario::draw(&Chain::default(), 0.3, &mut NormalPairs::new("end", Seed(1), 0));
         let mut engine = Engine::new(&scenario).unwrap();
         for number in 0..200 {
             let before = engine.clone();

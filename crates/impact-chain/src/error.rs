@@ -17,6 +17,8 @@ pub enum Error {
     },
     /// The start has masses in reversed order, first at this gap, overlapped by this length.
     Overlap {
+        /// The field that gives the start: `initial` of a scenario, or `positions` of a state.
+        field: String,
         /// The first gap that is below zero.
         gap: usize,
         /// How far it is below zero.
@@ -49,9 +51,9 @@ impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Error::Input { field, problem, remedy } => write!(f, "{field}: {problem}; {remedy}"),
-            Error::Overlap { gap, depth } => write!(
+            Error::Overlap { field, gap, depth } => write!(
                 f,
-                "initial: gap {gap} starts overlapped by {depth:e}; give places, walls and displacements \
+                "{field}: gap {gap} starts overlapped by {depth:e}; give places, walls and displacements \
                  that leave all gaps ≥ 0"
             ),
             Error::Work { gap, time, bound } => write!(
@@ -67,6 +69,7 @@ impl std::error::Error for Error {}
 
 impl Error {
     /// Returns the kind of the error.
+    #[must_use]
     pub fn kind(&self) -> ErrorKind {
         match self {
             Error::Input { .. } => ErrorKind::Input,
@@ -76,10 +79,10 @@ impl Error {
     }
 
     /// Returns the name of the field or argument that is refused, or `None` if a run was ended.
+    #[must_use]
     pub fn field(&self) -> Option<&str> {
         match self {
-            Error::Input { field, .. } => Some(field),
-            Error::Overlap { .. } => Some("initial"),
+            Error::Input { field, .. } | Error::Overlap { field, .. } => Some(field),
             Error::Work { .. } => None,
         }
     }
@@ -93,7 +96,8 @@ impl Error {
     }
 }
 
-pub(crate) fn within<T: PartialOrd + Debug>(
+/// Refuses a value of a field that is not from `low` to `high`.
+pub(crate) fn check_range<T: PartialOrd + Debug>(
     field: &str,
     x: T,
     low: T,
@@ -107,7 +111,7 @@ pub(crate) fn within<T: PartialOrd + Debug>(
 }
 
 /// Refuses a list that is not one pair of numbers for each mass.
-pub fn pairs_within(field: &str, pairs: &[[f64; 2]], masses: usize) -> Result<(), Error> {
+pub fn check_pairs(field: &str, pairs: &[[f64; 2]], masses: usize) -> Result<(), Error> {
     if pairs.len() != masses || masses == 0 {
         let problem = format!("it has {} pairs for {masses} masses", pairs.len());
         return Err(Error::input(field, problem, "give one pair for each mass, at least one"));
@@ -116,7 +120,7 @@ pub fn pairs_within(field: &str, pairs: &[[f64; 2]], masses: usize) -> Result<()
         for &x in pair {
             // The name is formatted for a number that is refused, not for each.
             if !(-1e9..=1e9).contains(&x) {
-                within(&format!("{field}[{j}]"), x, -1e9, 1e9)?;
+                check_range(&format!("{field}[{j}]"), x, -1e9, 1e9)?;
             }
         }
     }

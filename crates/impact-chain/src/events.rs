@@ -7,23 +7,20 @@
 //! closes. Instants are whole numbers of ticks, so "the same" is exact. Such ties come from
 //! symmetries and from hits of masses in contact, and are counted.
 
+use super::budget::Budget;
 use super::flight::{Motion, Phases, response};
 use super::force::Force;
 use super::impact::Impact;
 use super::simulation::{Awaits, Gap, Simulation, Waiting, clamp_width};
 use super::state::AT_REST;
 use super::topology::Topology;
-use super::{Error, Event, Scenario, within};
+use super::{Error, Event, Scenario, check_range};
 use crate::search::clock::{Instant, LATEST};
 use crate::search::earliest::Earliest;
 use crate::search::first_root::Search;
 use crate::search::local_frame::{Frame, Frequencies};
 use crate::search::outcome::{Counters, Graze};
 use crate::search::stepping::{SHALLOW, hidden_dip};
-
-/// The largest mean number of events per gap within one unit of time 1/ω; beyond it a run is given
-/// up. A hot chain has about one impact per gap; a chatter with r = 0.99 takes some 2500.
-pub(crate) const EVENTS_PER_GAP: u64 = 100_000;
 
 /// Overlap, as a fraction of `Frame::size`, beyond which a gap cannot be explained by rounding.
 const OVERLAP: f64 = 1e-12;
@@ -84,8 +81,7 @@ impl<const M: usize> Simulation<M> {
             work: Counters::default(),
             noted: 0,
             first_graze: None,
-            budget_end: Instant::ZERO.after(1.0 / w),
-            budget_left: EVENTS_PER_GAP * gaps as u64,
+            budget: Budget::new(gaps, Instant::ZERO.after(1.0 / w)),
         };
         simulation.start()?;
         simulation.note_grazes();
@@ -99,7 +95,8 @@ impl<const M: usize> Simulation<M> {
         for k in 0..self.gaps.len() {
             let frame = self.frame_of(k, &phases);
             if frame.f0 < -OVERLAP * frame.size {
-                return Err(Error::Overlap { gap: self.topology.label(k), depth: -frame.f0 });
+                let (field, gap) = ("initial".to_string(), self.topology.label(k));
+                return Err(Error::Overlap { field, gap, depth: -frame.f0 });
             }
             self.gaps[k].frame = frame;
             let [width, rate] = self.rounding_at_start(k, &phases);
@@ -136,9 +133,9 @@ impl<const M: usize> Simulation<M> {
         [SHUT_AT_START * width, AT_REST * fastest + AT_REST_OF_TERMS * rate]
     }
 
-    /// Returns the last instant of the run whose time is `until`.
+    /// Returns the last instant of the run whose time is `until`, not before the last event.
     pub fn end(&self, until: f64) -> Result<Instant, Error> {
-        within("until", until, -LATEST, LATEST)?;
+        check_range("until", until, self.event_time, LATEST)?;
         Ok(Instant::last_at(until).shifted(self.zero))
     }
 
@@ -174,14 +171,14 @@ impl<const M: usize> Simulation<M> {
             }
             // The queue goes on to the epoch of its first key.
             self.queue.first();
-            let (k, at) = self.queue.first_in_full(|_| 0.0);
-            if at > end {
+            let (k, instant) = self.queue.first_in_full(|_| 0.0);
+            if instant > end {
                 return Ok(None);
             }
             if !matches!(self.gaps[k].awaits, Awaits::Search { .. }) {
-                return Ok(Some(self.time(at)));
+                return Ok(Some(self.time(instant)));
             }
-            self.now = at;
+            self.now = instant;
             self.step(k, false)?;
             self.note_grazes();
         }
@@ -194,9 +191,9 @@ impl<const M: usize> Simulation<M> {
         let gaps = &self.gaps;
         let stays = |k: usize, [f0, g0]: [f64; 2]| [gaps[k].frame.f0, gaps[k].frame.g0] == [f0, g0];
         self.waiting.retain(|event| event.dip.is_none_or(|(k, frame)| stays(k, frame)));
-        let first = (0..self.waiting.len()).min_by_key(|&i| self.waiting[i].at)?;
+        let first = (0..self.waiting.len()).min_by_key(|&i| self.waiting[i].instant)?;
         let (_, next) = self.queue.first_in_full(|_| 0.0);
-        (self.waiting[first].at <= end.min(next)).then_some(first)
+        (self.waiting[first].instant <= end.min(next)).then_some(first)
     }
 
     /// Notes dips that rounding could not decide, by searching frames of this instant again.
@@ -213,32 +210,32 @@ impl<const M: usize> Simulation<M> {
             let dip = Some((k, [gap.frame.f0, gap.frame.g0]));
             let is_known = self.waiting.iter().any(|event| event.dip == dip);
             let Some(wait) = undecided.or(hidden).filter(|_| !is_known) else { continue };
-            let at = self.now.after(wait);
-            let graze = Graze { time: self.time(at), gap: self.topology.label(k) };
+            let instant = self.now.after(wait);
+            let graze = Graze { time: self.time(instant), gap: self.topology.label(k) };
             self.first_graze.get_or_insert(graze);
-            self.waiting.push(Waiting { at, dip, event: Event::Graze(graze) });
+            self.waiting.push(Waiting { instant, dip, event: Event::Graze(graze) });
         }
     }
 
     /// Goes to the next event up to `end`; returns its gap and, of an impact, whether another event
-    /// may be due at the same instant; none if there is no event.
+    /// may be due at the same instant, or `None` if there is no event.
     #[inline(always)]
     fn next_event(&mut self, end: Instant) -> Option<(usize, bool)> {
-        let (mut k, mut at) = self.queue.first();
+        let (mut k, mut instant) = self.queue.first();
         // A search has no effect on other gaps, so its order among equal events does not matter.
         let order_matters = !matches!(self.gaps[k].awaits, Awaits::Search { .. });
-        let is_close = (at > end || order_matters) && self.queue.is_close(k);
+        let is_close = (instant > end || order_matters) && self.queue.is_close(k);
         if is_close {
             let speed = |k: usize| match self.gaps[k].awaits {
                 Awaits::Impact(speed) => speed,
                 _ => 0.0,
             };
-            (k, at) = self.queue.first_in_full(speed);
+            (k, instant) = self.queue.first_in_full(speed);
         }
-        if at > end {
+        if instant > end {
             return None;
         }
-        self.now = at;
+        self.now = instant;
         Some((k, is_close))
     }
 
@@ -298,7 +295,8 @@ impl<const M: usize> Simulation<M> {
         Ok(None)
     }
 
-    /// Passes a dip of gap k that rounding hides; returns its next key, none if no dip.
+    /// Passes a dip of gap k that rounding hides; returns the next key of the gap, or `None` if
+    /// there is no dip.
     #[inline(always)]
     fn pass_dip(&mut self, k: usize) -> Option<Instant> {
         let frame = &self.gaps[k].frame;
@@ -341,17 +339,12 @@ impl<const M: usize> Simulation<M> {
 
     /// Takes one event of gap k from the budget of the current unit of time.
     fn spend(&mut self, k: usize) -> Result<(), Error> {
-        let bound = |gaps: usize| EVENTS_PER_GAP * gaps as u64;
-        if self.now >= self.budget_end {
-            self.budget_end = self.now.after(1.0 / self.search.frequencies.omega);
-            self.budget_left = bound(self.gaps.len());
+        let (now, frequencies) = (self.now, &self.search.frequencies);
+        if self.budget.spend(now, || now.after(1.0 / frequencies.omega)) {
+            return Ok(());
         }
-        if self.budget_left == 0 {
-            let (gap, time) = (self.topology.label(k), self.time(self.now));
-            return Err(Error::Work { gap, time, bound: bound(self.gaps.len()) });
-        }
-        self.budget_left -= 1;
-        Ok(())
+        let (gap, time) = (self.topology.label(k), self.time(now));
+        Err(Error::Work { gap, time, bound: self.budget.bound })
     }
 
     #[inline(always)]

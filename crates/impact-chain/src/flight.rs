@@ -163,14 +163,14 @@ impl<const M: usize> Parts<M> {
 mod tests {
     use super::*;
     use crate::search::truth::derivative;
-    use impact_numerics::random::NormalPairs;
+    use impact_numerics::random::{NormalPairs, Seed};
 
     /// In the first case both parts are at their highest, and f'''' reaches its bound.
     #[test]
     fn bounds_of_a_frame_are_those_of_its_function() {
         let frequencies = Frequencies::new(1.0, [1.5]);
         for i in 0..200 {
-            let mut normals = NormalPairs::new("bounds", 1, i);
+            let mut normals = NormalPairs::new("bounds", Seed(1), i);
             let ([a, b], [c, s]) = (normals.pair(), normals.pair());
             let (a, b, forced) = if i == 0 { (1.0, 0.0, [1.0, 0.0]) } else { (a, b, [c, s]) };
             let motion = Motion { a, b, forced: [forced], offset: 0.0 };

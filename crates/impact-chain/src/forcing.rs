@@ -18,13 +18,13 @@ pub fn response_at_zero(scenario: &Scenario) -> Vec<[f64; 2]> {
     response
 }
 
-/// Rotates the phases of the forcing by those at the instant `at`, which becomes t = 0.
-pub fn rotate_phases(scenario: &mut Scenario, at: Instant) {
+/// Rotates the phases of the forcing by those at an instant, which becomes t = 0.
+pub fn rotate_phases(scenario: &mut Scenario, instant: Instant) {
     let forces = Component::forces(scenario);
     let further = scenario.overtones.iter_mut().map(|overtone| &mut overtone.amplitudes);
     let amplitudes = std::iter::once(&mut scenario.forcing).chain(further);
     for (component, amplitudes) in forces.iter().zip(amplitudes) {
-        let (sin, cos) = component.phase(at);
+        let (sin, cos) = component.phase(instant);
         for [alpha, beta] in amplitudes {
             (*alpha, *beta) = (*alpha * cos + *beta * sin, *beta * cos - *alpha * sin);
         }
@@ -50,10 +50,11 @@ impl Component {
         Component::list(scenario, |big_w, force| response(w, big_w, force))
     }
 
-    fn list(scenario: &Scenario, of: impl Fn(f64, [f64; 2]) -> [f64; 2]) -> Vec<Component> {
+    /// Lists the components, with amplitudes that `transform` computes from frequency and force.
+    fn list(scenario: &Scenario, transform: impl Fn(f64, [f64; 2]) -> [f64; 2]) -> Vec<Component> {
         let component = |(frequency, pairs): (f64, &[[f64; 2]])| {
             let walled = |i: usize| {
-                let masses = pairs.iter().map(|pair| of(frequency, *pair)[i]);
+                let masses = pairs.iter().map(|pair| transform(frequency, *pair)[i]);
                 std::iter::once(0.0).chain(masses).chain([0.0]).collect()
             };
             let rate = Rate::new(frequency);
@@ -63,8 +64,8 @@ impl Component {
     }
 
     #[inline]
-    pub fn phase(&self, at: Instant) -> (f64, f64) {
-        self.rate.sin_cos(at)
+    pub fn phase(&self, instant: Instant) -> (f64, f64) {
+        self.rate.sin_cos(instant)
     }
 }
 
@@ -73,10 +74,10 @@ impl Component {
 pub type Phases = [(f64, f64); crate::scenario::COMPONENTS];
 
 #[cfg(feature = "methods")]
-pub fn phases(components: &[Component], at: Instant) -> Phases {
+pub fn phases(components: &[Component], instant: Instant) -> Phases {
     let mut phases = [(0.0, 1.0); crate::scenario::COMPONENTS];
     for (phase, component) in phases.iter_mut().zip(components) {
-        *phase = component.phase(at);
+        *phase = component.phase(instant);
     }
     phases
 }

@@ -21,7 +21,7 @@ pub type Sink<'a> = &'a mut dyn FnMut(Impact) -> bool;
 
 /// Collects the first `most` impacts of a run, or all if there are fewer.
 #[cfg(feature = "methods")]
-pub fn collect<T>(
+pub fn collect_impacts<T>(
     most: usize,
     run: impl FnOnce(Sink) -> Result<T, Error>,
 ) -> Result<Vec<Impact>, Error> {

@@ -6,12 +6,17 @@
 //!   amplitudes of its forcing, its start, and places of its choice.
 //! - [`Engine`], [`Impact`], [`Counters`], [`Graze`]: the simulation of a scenario, its impacts,
 //!   its counted work, and what rounding could not decide.
-//! - [`Abreast`]: many realisations of a chain, simulated side by side in half of the time.
 //! - [`State`]: positions and velocities at a time, and the scenario that goes on from there.
-//! - [`counts`], [`rise`]: many random chains, counted in windows of time; means and places of the
-//!   rise.
 //! - [`Error`], [`rounding`]: input that is refused, and a bound of the errors of impacts.
-//! - [`methods`]: other ways to simulate a chain, to compare with, and the motion to 106 bits.
+#![cfg_attr(
+    feature = "ensembles",
+    doc = "- [`Abreast`]: many realisations of a chain, simulated side by side in half of the time.",
+    doc = "- [`counts`], [`rise`]: many random chains, counted in windows; means, and places of the rise."
+)]
+#![cfg_attr(
+    feature = "methods",
+    doc = "- [`methods`]: other ways to simulate a chain, to compare with, and the motion to 106 bits."
+)]
 //!
 //! Equations are those of M. Homer and S. J. Hogan (2007), *Impact Dynamics of Large Dimensional
 //! Systems*.
@@ -24,6 +29,7 @@
 
 #[cfg(feature = "ensembles")]
 pub mod abreast;
+mod budget;
 mod chain;
 mod complementarity;
 mod contact;
@@ -59,19 +65,19 @@ mod validation;
 mod vectors;
 
 #[cfg(feature = "ensembles")]
-pub use abreast::Abreast;
+pub use abreast::{Abreast, Counting};
 pub use chain::{Boundary, Chain, Start};
 #[cfg(feature = "ensembles")]
 pub use counts::{Counts, Protocol, Watch};
 pub use engine::Engine;
-use error::within;
+use error::check_range;
 pub use error::{Error, ErrorKind};
 pub use event::{End, Event};
 pub use impact::Impact;
 #[cfg(feature = "methods")]
 pub use impact::Sink;
 #[cfg(feature = "random")]
-pub use impact_numerics::random::NormalPairs;
+pub use impact_numerics::random::{NormalPairs, Seed};
 #[cfg(feature = "ensembles")]
 pub use impact_numerics::statistics::Estimate;
 pub use scenario::{Initial, Overtone, Scenario};

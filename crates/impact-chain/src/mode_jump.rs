@@ -148,12 +148,12 @@ fn crossing(rows: &[Heights], rises: bool) -> Option<Crossing> {
 /// `None` below two different x.
 fn line(points: impl Iterator<Item = (f64, f64, f64)>) -> Option<(f64, f64)> {
     let [mut w, mut x, mut y, mut xx, mut xy] = [0.0; 5];
-    for (at, value, weight) in points {
+    for (abscissa, ordinate, weight) in points {
         w += weight;
-        x += weight * at;
-        y += weight * value;
-        xx += weight * at * at;
-        xy += weight * at * value;
+        x += weight * abscissa;
+        y += weight * ordinate;
+        xx += weight * abscissa * abscissa;
+        xy += weight * abscissa * ordinate;
     }
     let determinant = w * xx - x * x;
     (determinant > 1e-12 * w * w * STRAIGHT * STRAIGHT)
@@ -211,13 +211,15 @@ impl Passing {
             bootstrap::estimate(whole.map(column), &values, LEVEL)
         };
         let clearance = estimate(|crossing| crossing.clearance);
-        let climbs = clearance.is_some_and(|of| of.interval[1] < 0.0);
-        let of = |column: fn(Crossing) -> f64| estimate(column).filter(|_| !climbs);
-        Passing { sigma: of(|at| at.sigma), peak: of(|at| at.peak), clearance }
+        let climbs = clearance.is_some_and(|clearance| clearance.interval[1] < 0.0);
+        let place = |column: fn(Crossing) -> f64| estimate(column).filter(|_| !climbs);
+        let sigma = place(|crossing| crossing.sigma);
+        Passing { sigma, peak: place(|crossing| crossing.peak), clearance }
     }
 
     /// Returns whether the mode surely jumps (true) or surely climbs (false), or `None` if neither
     /// is sure.
+    #[must_use]
     pub fn is_jump(&self) -> Option<bool> {
         let [low, high] = self.clearance?.interval;
         (low > 0.0 || high < 0.0).then_some(low > 0.0)
@@ -248,6 +250,7 @@ pub struct Histogram {
 }
 
 /// Measures the jump in samples at rising σ.
+#[must_use]
 pub fn mode_jump(samples: &[Sample<'_>], histogram: Histogram) -> ModeJump {
     let Histogram { gaps, half_width } = histogram;
     let read = |halves: &dyn Fn(&Sample<'_>) -> [Vec<u32>; 2]| {
@@ -342,8 +345,8 @@ mod tests {
         };
         let counts = rows.map(|row| [row.end, row.bulk].map(|share| share * row.chains + 0.5));
         let [a, b] = fit(counts.map(|[a, b]| (a / b).ln()), counts.map(|[a, b]| 1.0 / a + 1.0 / b));
-        let found = crossing(&rows, true).unwrap().sigma;
-        assert!((found - 0.1 - 0.005 * a / (a - b)).abs() < 1e-9, "{found}");
+        let sigma = crossing(&rows, true).unwrap().sigma;
+        assert!((sigma - 0.1 - 0.005 * a / (a - b)).abs() < 1e-9, "{sigma}");
     }
 
     /// Equal numbers have the height that they have, not that of the luckiest of them.

@@ -28,7 +28,8 @@ pub const TIME: f64 = 66.3;
 /// # Panics
 /// Panics if a list of the scenario is shorter than its number of masses asks for.
 /// [`Scenario::validate`] refuses these.
-pub fn width(scenario: &Scenario) -> f64 {
+#[must_use]
+pub fn gap_error(scenario: &Scenario) -> f64 {
     let amplitudes = (0..scenario.forcing.len()).map(|j| amplitude(scenario, j));
     let largest = amplitudes.fold(0.0, f64::max);
     // A gap that is wider at rest than both amplitudes cannot close.
@@ -63,16 +64,16 @@ mod tests {
 
     /// Ω² − ω² = 1: amplitudes of 5 forced and 0.5 free, twice at most, and the spacing.
     #[test]
-    fn width_by_hand() {
+    fn gap_error_by_hand() {
         let chain = Chain { masses: 1, ..Chain::default() };
         let forced = Scenario::given(&chain, vec![[3.0, 4.0]]).unwrap();
         let scenario = Scenario { initial: Initial::Free(vec![[0.3, 0.4]]), ..forced };
         let bound = |size: f64| 66.3 * f64::EPSILON * size;
-        assert!((width(&scenario) / bound(12.0) - 1.0).abs() < 1e-14);
+        assert!((gap_error(&scenario) / bound(12.0) - 1.0).abs() < 1e-14);
         // A gap that is 8 wide at rest counts with that, one of 100 with both amplitudes.
         for (wide, mean) in [(8.0, 8.0), (100.0, 11.0)] {
             let placed = Scenario { places: Some(vec![0.0, 1.0, 1.0 + wide]), ..scenario.clone() };
-            assert!((width(&placed) / bound(mean + 11.0) - 1.0).abs() < 1e-14, "{wide}");
+            assert!((gap_error(&placed) / bound(mean + 11.0) - 1.0).abs() < 1e-14, "{wide}");
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Defines a scenario: one chain, its forcing and its start.
 
-use crate::error::{Error, pairs_within};
+use crate::error::{Error, check_pairs};
 use crate::flight::response;
 use crate::{Boundary, Chain, Start};
 #[cfg(feature = "random")]
@@ -15,6 +15,7 @@ pub enum Initial {
     Free(Vec<[f64; 2]>),
 }
 
+/// The largest number of components of the forcing.
 pub const COMPONENTS: usize = 8;
 
 /// Draws one pair of normals with standard deviation `sigma` for each mass.
@@ -45,8 +46,9 @@ pub struct Scenario {
     pub forcing: Vec<[f64; 2]>,
     /// Further components of the forcing, Eq. (3); the paper has none.
     pub overtones: Vec<Overtone>,
-    /// Equilibria of left wall, masses 1..n and right wall; none for j d, as in the paper.
-    /// A constant force F on a mass shifts its place by F/ω². On a ring the walls' have no meaning.
+    /// Equilibria of left wall, masses 1..n and right wall, or `None` if they are j d, as in the
+    /// paper. A constant force F on a mass shifts its place by F/ω². On a ring the walls' have no
+    /// meaning.
     pub places: Option<Vec<f64>>,
 }
 
@@ -67,7 +69,7 @@ impl Scenario {
     /// start, the n pairs of the free part.
     #[cfg(feature = "random")]
     pub fn draw(chain: &Chain, sigma: f64, normals: &mut NormalPairs) -> Scenario {
-        let mut scenario = Scenario::of(chain, draw_pairs(chain.masses, sigma, normals));
+        let mut scenario = Scenario::with_forcing(chain, draw_pairs(chain.masses, sigma, normals));
         if chain.start == Start::Random {
             scenario.initial = Initial::Free(draw_pairs(chain.masses, sigma, normals));
         }
@@ -76,12 +78,17 @@ impl Scenario {
 
     /// Creates the scenario of a chain with given amplitudes, one pair for each mass;
     /// [`Start::Random`] is taken as [`Start::Zero`], as there are no random numbers.
+    ///
+    /// # Errors
+    /// Those of [`Scenario::validate`].
     pub fn given(chain: &Chain, forcing: Vec<[f64; 2]>) -> Result<Scenario, Error> {
-        pairs_within("forcing", &forcing, chain.masses)?;
-        Ok(Scenario::of(chain, forcing))
+        check_pairs("forcing", &forcing, chain.masses)?;
+        let scenario = Scenario::with_forcing(chain, forcing);
+        scenario.validate()?;
+        Ok(scenario)
     }
 
-    fn of(chain: &Chain, forcing: Vec<[f64; 2]>) -> Scenario {
+    fn with_forcing(chain: &Chain, forcing: Vec<[f64; 2]>) -> Scenario {
         let initial = match chain.start {
             Start::Rest => Initial::Rest,
             Start::Zero | Start::Random => Initial::Free(vec![[0.0; 2]; forcing.len()]),
@@ -103,6 +110,7 @@ impl Scenario {
     ///
     /// # Panics
     /// Panics if `places` has no place of this body.
+    #[must_use]
     pub fn place(&self, m: usize) -> f64 {
         self.places.as_ref().map_or(m as f64 * self.spacing, |places| places[m])
     }
@@ -149,6 +157,7 @@ impl Scenario {
     }
 
     /// Returns the number of gaps, N.
+    #[must_use]
     pub fn gaps(&self) -> usize {
         self.boundary.gaps(self.forcing.len())
     }

@@ -1,10 +1,10 @@
 //! Reads a scenario from JSON, and writes one.
 
-use crate::error::{Error, within};
+use crate::error::{Error, check_range};
 use crate::scenario::{COMPONENTS, Initial, Overtone, Scenario, draw_pairs};
 use crate::state::State;
 use crate::{Boundary, Chain, Engine};
-use impact_numerics::random::NormalPairs;
+use impact_numerics::random::{NormalPairs, Seed};
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::Value;
@@ -105,6 +105,7 @@ impl Scenario {
     /// Writes the scenario as JSON in one line, from which [`Scenario::from_json`] reads the same,
     /// without the places of the walls on a ring. One that [`Scenario::validate`] refuses is not
     /// read again, or as another.
+    #[must_use]
     pub fn to_json(&self) -> String {
         serde_json::to_string(self).unwrap_or_default()
     }
@@ -174,9 +175,14 @@ fn parse(text: &str) -> Result<ScenarioFile, Error> {
         let field = match path.as_str() {
             "." | "?" => "scenario",
             "" => "unnamed field",
-            named => named,
+            path => path,
         };
-        let problem = error.inner().to_string();
+        let error = error.inner();
+        if is_not_finite(text, error) {
+            let problem = format!("not finite at line {} column {}", error.line(), error.column());
+            return Error::input(field, problem, "give a finite number");
+        }
+        let problem = error.to_string();
         let unknown = problem.strip_prefix("unknown field `");
         let name = unknown.and_then(|rest| rest.split('`').next()).unwrap_or_default();
         match NOT_IN_MODEL.iter().find(|(part, _)| name.contains(part)) {
@@ -189,6 +195,14 @@ fn parse(text: &str) -> Result<ScenarioFile, Error> {
         Error::input("scenario", error.to_string(), remedy)
     })?;
     Ok(file)
+}
+
+/// Whether JSON could not be read because of NaN or an infinity, for which it has no number.
+fn is_not_finite(text: &str, error: &serde_json::Error) -> bool {
+    let line = text.lines().nth(error.line().saturating_sub(1)).unwrap_or_default();
+    let rest = line.get(error.column().saturating_sub(1)..).unwrap_or_default();
+    let names = ["NaN", "Infinity", "-Infinity"];
+    error.is_syntax() && names.iter().any(|name| rest.starts_with(name))
 }
 
 impl ScenarioFile {
@@ -211,8 +225,8 @@ impl ScenarioFile {
                 zero
             }
             Start::Random { sigma, seed } => {
-                within("initial.random.sigma", sigma, 0.0, 1e9)?;
-                let mut normals = NormalPairs::new("trace", seed, 0);
+                check_range("initial.random.sigma", sigma, 0.0, 1e9)?;
+                let mut normals = NormalPairs::new("trace", Seed(seed), 0);
                 Initial::Free(draw_pairs(masses, sigma, &mut normals))
             }
         };
@@ -230,13 +244,13 @@ impl ScenarioFile {
             places: places(masses, self.spacing, self.places, self.walls)?,
         };
         let Some(state) = state else { return Ok(scenario) };
-        state.as_scenario(&scenario).map_err(|error| match error {
-            Error::Input { field, problem, remedy }
-                if ["positions", "velocities"].contains(&field.as_str()) =>
+        state.as_scenario(&scenario).map_err(|mut error| {
+            if let Error::Input { field, .. } | Error::Overlap { field, .. } = &mut error
+                && (field.starts_with("positions") || field.starts_with("velocities"))
             {
-                Error::input(format!("initial.at.{field}"), problem, remedy)
+                field.insert_str(0, "initial.at.");
             }
-            error => error,
+            error
         })
     }
 }
@@ -257,7 +271,7 @@ fn places(
         return Err(Error::input("places", problem, "give one for each mass"));
     }
     for wall in walls.into_iter().flatten() {
-        within("walls", wall, -1e9, 1e9)?;
+        check_range("walls", wall, -1e9, 1e9)?;
     }
     let [left, right] = walls.unwrap_or([0.0, (masses + 1) as f64 * spacing]);
     Ok(Some([vec![left], places, vec![right]].concat()))
@@ -306,5 +320,23 @@ mod tests {
         assert_eq!(refused, "walls: a ring has none; leave it out");
         let far = Scenario::from_json(r#"{"walls":[0,1e300],"forcing":[[0,0]]}"#).unwrap_err();
         assert!(far.to_string().starts_with("walls: "), "{far}");
+    }
+
+    #[test]
+    fn numbers_that_are_not_finite_and_overlaps_are_called_by_their_field() {
+        for (text, expected) in [
+            (
+                r#"{"forcing": [[NaN, 0]]}"#,
+                "forcing[0][0]: not finite at line 1 column 15; give a finite number",
+            ),
+            (r#"{"spacing":-Infinity}"#, "spacing: not finite at line 1 column 1"),
+            (
+                r#"{"forcing":[[0,0]],"initial":{"at":{"positions":[-1],"velocities":[0]}}}"#,
+                "initial.at.positions: gap 0 starts overlapped by 1e0",
+            ),
+        ] {
+            let refused = Scenario::from_json(text).unwrap_err().to_string();
+            assert!(refused.starts_with(expected), "{refused}");
+        }
     }
 }

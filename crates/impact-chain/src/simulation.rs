@@ -1,5 +1,6 @@
 //! Holds the state of a simulation, and keeps the frame and the next event of each gap.
 
+use super::budget::Budget;
 use super::error::Error;
 use super::event::Event;
 use super::flight::{Motion, Phases};
@@ -41,7 +42,7 @@ pub(super) struct Gap<const M: usize> {
 /// An event that is known before its turn.
 #[derive(Clone, Debug)]
 pub(super) struct Waiting {
-    pub at: Instant,
+    pub instant: Instant,
     /// Of a graze the gap, and width and rate of its frame, which an impact before it changes.
     pub dip: Option<(usize, [f64; 2])>,
     pub event: Event,
@@ -81,8 +82,7 @@ pub(super) struct Simulation<const M: usize> {
     /// How many undecided dips are noted, and the first of them.
     pub(super) noted: u64,
     pub(super) first_graze: Option<Graze>,
-    pub(super) budget_end: Instant,
-    pub(super) budget_left: u64,
+    pub(super) budget: Budget<Instant>,
 }
 
 /// Sets a width below zero to zero, unless the gap is closing: then its impact is due now.
@@ -96,8 +96,8 @@ pub(super) fn clamp_width<const M: usize>(frame: &mut Frame<M>) {
 impl<const M: usize> Simulation<M> {
     /// Returns the time of an instant for observers.
     #[inline(always)]
-    pub(super) fn time(&self, at: Instant) -> f64 {
-        at.since(self.zero)
+    pub(super) fn time(&self, instant: Instant) -> f64 {
+        instant.since(self.zero)
     }
 
     /// Applies the impact law to the two neighbours of gap k; returns the jumps of their velocity.
@@ -167,7 +167,7 @@ impl<const M: usize> Simulation<M> {
         self.queue.set(k, [key]);
     }
 
-    /// Returns width and rate of gap k from its last frame, or none unless it is nearly shut.
+    /// Returns width and rate of gap k from its last frame, or `None` if it is not nearly shut.
     /// `computed` is its frame from the motions.
     #[inline(always)]
     pub(super) fn carried(&self, k: usize, computed: &Frame<M>, jump: f64) -> Option<[f64; 2]> {
@@ -211,7 +211,8 @@ impl<const M: usize> Simulation<M> {
         }
     }
 
-    /// Lets an open gap k wait without a search if it certainly outlasts one; returns if so.
+    /// Lets an open gap k wait without a search if it certainly stays open for longer than a search
+    /// looks ahead; returns whether it does.
     pub(super) fn try_long_wait(&mut self, k: usize, phases: &Phases<M>) -> bool {
         let [left, right] = self.topology.sides(k);
         let motion = self.motions[right].minus(&self.motions[left]);
@@ -238,8 +239,8 @@ impl<const M: usize> Simulation<M> {
         let latest = Instant::at(LATEST).shifted(self.zero);
         let (from, to) = (self.event_time, self.time(next.min(latest)));
         if (from..=to).contains(&time) {
-            let at = Instant::at(time).shifted(self.zero);
-            return Ok(Phases::at(&self.search.frequencies, at));
+            let instant = Instant::at(time).shifted(self.zero);
+            return Ok(Phases::at(&self.search.frequencies, instant));
         }
         let problem = format!("{time:?} is not between the last event and the next");
         let remedy = format!("give {from:?} to {to:?}, or run the engine to that time first");

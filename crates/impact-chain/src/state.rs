@@ -1,6 +1,6 @@
 //! Describes a state of the masses at any time, and the scenario that starts there.
 
-use crate::error::{Error, within};
+use crate::error::{Error, check_range};
 use crate::forcing::{response_at_zero, rotate_phases};
 use crate::scenario::{Initial, Scenario};
 use crate::search::clock::{Instant, LATEST};
@@ -33,7 +33,7 @@ impl State {
     /// # Panics
     /// Panics if `places`, or the amplitudes of an overtone, are fewer than the scenario's bodies.
     /// [`Scenario::validate`] refuses these.
-    pub fn of(scenario: &Scenario) -> State {
+    pub fn from_scenario(scenario: &Scenario) -> State {
         let w = scenario.natural_frequency;
         let mut state = State { time: 0.0, positions: Vec::new(), velocities: Vec::new() };
         for (j, [x, v]) in response_at_zero(scenario).into_iter().enumerate() {
@@ -72,7 +72,8 @@ impl State {
             let fastest = before.abs().max(after.abs());
             let rounding = UNITS * f64::EPSILON * (place.abs() + self.time * fastest);
             if width < -rounding {
-                return Err(Error::Overlap { gap: topology.label(k), depth: -width });
+                let (field, gap) = ("positions".to_string(), topology.label(k));
+                return Err(Error::Overlap { field, gap, depth: -width });
             }
             if width > rounding || width >= 0.0 && (after - before).abs() > AT_REST * fastest {
                 continue;
@@ -87,12 +88,16 @@ impl State {
     }
 
     fn validate(&self, n: usize) -> Result<(), Error> {
-        within("time", self.time, 0.0, LATEST)?;
+        check_range("time", self.time, 0.0, LATEST)?;
         for (field, values) in [("positions", &self.positions), ("velocities", &self.velocities)] {
-            if values.len() != n || values.iter().any(|x| !x.is_finite()) {
-                let problem = format!("{} values for {n} masses", values.len());
-                let remedy = "give one finite number for each mass";
+            let remedy = "give one finite number for each mass";
+            if values.len() != n {
+                let problem = format!("it has {} values for {n} masses", values.len());
                 return Err(Error::input(field, problem, remedy));
+            }
+            if let Some(j) = values.iter().position(|x| !x.is_finite()) {
+                let problem = format!("{:?} is not finite", values[j]);
+                return Err(Error::input(format!("{field}[{j}]"), problem, remedy));
             }
         }
         Ok(())

@@ -1,6 +1,6 @@
 //! Checks a scenario against the ranges of the model.
 
-use crate::error::{Error, pairs_within, within};
+use crate::error::{Error, check_pairs, check_range};
 use crate::rounding;
 use crate::scenario::{COMPONENTS, Initial, Scenario};
 
@@ -17,9 +17,9 @@ impl Scenario {
 
     /// Checks every field against the model; names the first that is out of range.
     pub fn validate(&self) -> Result<(), Error> {
-        within("spacing", self.spacing, 1e-6, 1e6)?;
-        within("natural_frequency", self.natural_frequency, 1e-3, 1e3)?;
-        within("restitution", self.restitution, 0.0, 1.0)?;
+        check_range("spacing", self.spacing, 1e-6, 1e6)?;
+        check_range("natural_frequency", self.natural_frequency, 1e-3, 1e3)?;
+        check_range("restitution", self.restitution, 0.0, 1.0)?;
         let masses = self.forcing.len();
         for (m, (frequency, pairs)) in self.components().enumerate() {
             let (frequency_field, field) = if self.overtones.is_empty() {
@@ -27,7 +27,7 @@ impl Scenario {
             } else {
                 (format!("forcing_frequencies[{m}]"), format!("forcing[{m}]"))
             };
-            within(&frequency_field, frequency, 1e-3, 1e3)?;
+            check_range(&frequency_field, frequency, 1e-3, 1e3)?;
             if frequency == self.natural_frequency {
                 let problem = format!("{frequency:?} equals the natural frequency (resonance)");
                 return Err(Error::input(frequency_field, problem, "choose another"));
@@ -36,10 +36,10 @@ impl Scenario {
                 let problem = format!("there are more than {COMPONENTS} frequencies");
                 return Err(Error::input(frequency_field, problem, "use fewer"));
             }
-            pairs_within(&field, pairs, masses)?;
+            check_pairs(&field, pairs, masses)?;
         }
         if let Initial::Free(free) = &self.initial {
-            pairs_within("initial.free", free, masses)?;
+            check_pairs("initial.free", free, masses)?;
         }
         if let Some(places) = &self.places {
             if places.len() != masses + 2 {
@@ -47,10 +47,10 @@ impl Scenario {
                 return Err(Error::input("places", problem, "give one for each mass and wall"));
             }
             for &place in places {
-                within("places", place, -1e9, 1e9)?;
+                check_range("places", place, -1e9, 1e9)?;
             }
         }
-        let (width, largest) = (rounding::width(self), rounding::LARGEST * self.spacing);
+        let (width, largest) = (rounding::gap_error(self), rounding::LARGEST * self.spacing);
         if width <= largest {
             return Ok(());
         }

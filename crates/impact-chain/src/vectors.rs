@@ -1,18 +1,18 @@
-//! Chooses the vectors of the processor.
+//! Chooses the vector registers of the processor.
 
 use fearless_simd::Level;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Whether only such vectors are used as every processor of the kind has.
+/// Whether only those registers are used that every processor of the same architecture has.
 static GENERIC: AtomicBool = AtomicBool::new(false);
 
-/// Does from now on without the vectors that not every processor of the kind has, as a measurement
-/// may want: nothing but times depends on it.
+/// Uses only those vector registers from now on that every processor of the same architecture has,
+/// for measurements. Only times depend on it, no result does.
 pub fn without_wide_vectors() {
     GENERIC.store(true, Ordering::Relaxed);
 }
 
-/// Returns the vectors to compute with.
-pub fn level() -> Level {
+/// Returns the vector registers to compute with.
+pub fn vector_level() -> Level {
     if GENERIC.load(Ordering::Relaxed) { Level::baseline() } else { Level::new() }
 }

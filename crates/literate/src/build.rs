@@ -7,7 +7,7 @@ use crate::failure::Failure;
 use crate::figures::Figure;
 use crate::paper::{FigureSpec, Paper};
 use crate::prose::Templates;
-use crate::report::claims::printed;
+use crate::report::claims::printed_values;
 use crate::report::filler::Filler;
 use crate::report::{Files, Input, Registry, Value, assemble};
 use rayon::prelude::*;
@@ -26,21 +26,21 @@ impl Paper {
     ) -> Result<Session<'_>, Failure> {
         let project = &self.project;
         self.check_names()?;
-        self.experiments.iter().try_for_each(|experiment| experiment.check(project))?;
+        self.experiments.iter().try_for_each(|experiment| experiment.check_files(project))?;
         let folder = prose.map(Path::to_path_buf).or_else(|| project.find(self.prose));
         let templates = match folder {
             Some(folder) => Templates::read(&folder)?,
-            None => Templates::of(project.copy.iter().filter_map(|(path, text)| {
+            None => Templates::from_files(project.copy.iter().filter_map(|(path, text)| {
                 Some((path.strip_prefix(self.prose)?.strip_prefix('/')?, *text))
             })),
         };
         let mut documents = self.edition.documents.iter();
-        if documents.len() > 0 && documents.all(|one| one.files(&templates).is_empty()) {
+        if documents.len() > 0 && documents.all(|document| document.files(&templates).is_empty()) {
             let names: Vec<&str> =
                 self.edition.documents.iter().map(|document| document.prose).collect();
             let folder = prose.unwrap_or(Path::new(self.prose)).display();
-            let what = format!("{folder}: no prose is there; give the folder of");
-            return Err(Failure::input(format!("{what} {}", names.join(", "))));
+            let problem = format!("{folder}: no prose is there; give the folder of");
+            return Err(Failure::input(format!("{problem} {}", names.join(", "))));
         }
         let own =
             self.experiments.iter().flat_map(|experiment| experiment.own()).copied().collect();
@@ -55,17 +55,18 @@ impl Paper {
         session: &Session<'_>,
     ) -> Result<Results, Error> {
         let mut experiments = self.experiments.clone();
-        experiments.retain(|one| needs.iter().any(|need| need.name() == one.name()));
+        experiments.retain(|experiment| needs.iter().any(|need| need.name() == experiment.name()));
         Results::run(&experiments, &self.derived, session)
     }
 
     /// Returns what was printed, with the texts of the checks; nothing without a file.
     pub fn published(&self, session: &Session<'_>) -> Result<Published, Failure> {
         let templates = &session.templates;
-        let fault = |what: String| Failure::input(templates.place(&what));
+        let fault = |problem: String| Failure::input(templates.place(&problem));
         let published = Published::parse(templates.text("published.toml")?);
         let ids: Vec<&str> = self.rules.iter().map(|rule| rule.id).collect();
-        let words = Words::read(templates).and_then(|words| words.taken(&ids)).map_err(fault)?;
+        let words =
+            Words::read(templates).and_then(|words| words.refuse_unused(&ids)).map_err(fault)?;
         let published = Published { words, ..published.map_err(|error| fault(error.to_string()))? };
         check_rules(&published, &self.rules)?;
         Ok(published)
@@ -80,8 +81,8 @@ impl Paper {
 
     pub fn registry(&self, results: &Results, published: &Published) -> Result<Registry, Failure> {
         let mut registry = Registry::default();
-        registry.extend(printed(published))?;
-        let profile = Value::text("profile", results.profile.name());
+        registry.extend(printed_values(published))?;
+        let profile = Value::words("profile", results.profile.name());
         registry.add(profile.source(crate::value::origin(Paper::registry)))?;
         for values in &self.values {
             registry.extend(values(results, published)?)?;

@@ -31,16 +31,7 @@ impl Code {
         prose: &str,
         own: Vec<&'static str>,
     ) -> Result<Code, String> {
-        let program = std::env::current_exe().map_err(|error| format!("the program: {error}"))?;
-        Code::of(&program, project, prose, own)
-    }
-
-    fn of(
-        program: &Path,
-        project: &Project,
-        prose: &str,
-        own: Vec<&'static str>,
-    ) -> Result<Code, String> {
+        let program = &std::env::current_exe().map_err(|error| format!("the program: {error}"))?;
         if let Some(path) = project.changed() {
             return Err(older_than(path));
         }
@@ -69,18 +60,18 @@ impl Code {
         }
         manifests.sort();
         manifests.dedup();
-        let mut put = |path: &PathBuf| {
+        let mut hash_file = |path: &PathBuf| {
             let bytes = std::fs::read(path).map_err(|error| unread(path, error))?;
             // The first 64 bits are enough.
             hashes.insert(name(path, &top), sha256(bytes)[..16].to_string());
             Ok::<_, String>(())
         };
-        files.iter().try_for_each(&mut put)?;
+        files.iter().try_for_each(&mut hash_file)?;
         let is_code = |(path, _): &(&String, &String)| !is_in(path, prose);
         let code = hashes.iter().filter(is_code).map(|(a, b)| (a.clone(), b.clone())).collect();
         if let Some(path) = differs_from_first_run(program, built, &code) {
-            let what = "is not what this program was built from, although its time is older";
-            return Err(format!("{path} {what}; touch it, and run `cargo build`"));
+            let problem = "is not what this program was built from, although its time is older";
+            return Err(format!("{path} {problem}; touch it, and run `cargo build`"));
         }
         for path in &manifests {
             let bytes = std::fs::read(path).map_err(|error| unread(path, error))?;
@@ -96,14 +87,14 @@ impl Code {
 
     /// Returns what the result of an experiment with some code of its own is made of.
     pub fn counted(&self, project: &Project, own: &[&str]) -> BTreeMap<String, String> {
-        let all = self.hashes.iter().filter(|(path, _)| project.counts(path, own, &self.own));
-        all.map(|(path, hash)| (path.clone(), hash.clone())).collect()
+        let files = self.hashes.iter().filter(|(path, _)| project.counts(path, own, &self.own));
+        files.map(|(path, hash)| (path.clone(), hash.clone())).collect()
     }
 }
 
-/// Compares code with what it was when this program ran first, and returns a file that differs: the
-/// times by which cargo goes do not tell when an older file is put back. The first run notes it in
-/// a file beside the program, where it may write.
+/// Returns a file whose hash differs from that at the first run of this program, or `None` if there
+/// is no such file: the times by which cargo goes do not tell when an older file is put back. The
+/// first run notes all hashes in a file beside the program, where it may write.
 fn differs_from_first_run(
     program: &Path,
     built: SystemTime,
@@ -111,16 +102,16 @@ fn differs_from_first_run(
 ) -> Option<String> {
     let place = program.with_extension("built");
     let since = built.duration_since(SystemTime::UNIX_EPOCH).ok()?.as_nanos().to_string();
-    let text = input::regular_text(&place).unwrap_or_default();
-    let (before, first) = text.split_once('\n').unwrap_or_default();
+    let record = input::read_text(&place).unwrap_or_default();
+    let (before, first_hashes) = record.split_once('\n').unwrap_or_default();
     if before == since {
-        let first: BTreeMap<String, String> = serde_json::from_str(first).ok()?;
+        let first_hashes: BTreeMap<String, String> = serde_json::from_str(first_hashes).ok()?;
         let differs = |(path, hash): &(&String, &String)| code.get(*path) != Some(hash);
-        return first.iter().find(differs).map(|(path, _)| path.clone());
+        return first_hashes.iter().find(differs).map(|(path, _)| path.clone());
     }
     let waiting = program.with_extension(format!("built.{}", std::process::id()));
-    let text = format!("{since}\n{}", serde_json::to_string(code).ok()?);
-    std::fs::write(&waiting, text).and_then(|()| std::fs::rename(&waiting, place)).ok();
+    let record = format!("{since}\n{}", serde_json::to_string(code).ok()?);
+    std::fs::write(&waiting, record).and_then(|()| std::fs::rename(&waiting, place)).ok();
     None
 }
 
@@ -136,18 +127,18 @@ fn variables(program: &Path, files: &[PathBuf]) -> BTreeMap<String, String> {
     lists.sort();
     let mut packages = BTreeMap::new();
     for (_, list) in lists {
-        let text = input::regular_text(&list).unwrap_or_default();
-        let line = text.lines().next().unwrap_or_default();
+        let list = input::read_text(&list).unwrap_or_default();
+        let line = list.lines().next().unwrap_or_default();
         let Some(root) = paths(line).into_iter().next() else { continue };
         if files.iter().any(|file| file.ends_with(&root)) {
-            packages.insert(root, text);
+            packages.insert(root, list);
         }
     }
     let is_of_cargo = |name: &str| {
         ["CARGO", "CLIPPY"].iter().any(|start| name.starts_with(start))
             || ["OUT_DIR", "COMPILER"].contains(&name)
     };
-    let lines = packages.values().flat_map(|text| text.lines());
+    let lines = packages.values().flat_map(|list| list.lines());
     let pairs = lines.filter_map(|line| line.strip_prefix("# env-dep:"));
     let pairs = pairs.map(|pair| pair.split_once('=').unwrap_or((pair, "")));
     let pairs = pairs.filter(|(name, _)| !is_of_cargo(name));
@@ -167,8 +158,8 @@ fn listed(program: &Path, project: &Project) -> Option<(PathBuf, Vec<PathBuf>)> 
     if program.parent()?.file_name()? == "deps" {
         return None;
     }
-    let text = input::regular_text(&program.with_extension("d")).ok()?;
-    let files = paths(&text);
+    let list = input::read_text(&program.with_extension("d")).ok()?;
+    let files = paths(&list);
     let own = || project.sources.files.iter().map(|(path, _)| *path);
     let first = own().find(|path| !path.starts_with("..") && path.contains('/'))?;
     let is_top = |top: &PathBuf| own().all(|path| files.contains(&real(&top.join(path))));
@@ -179,8 +170,8 @@ fn listed(program: &Path, project: &Project) -> Option<(PathBuf, Vec<PathBuf>)> 
     files.iter().any(|path| path.exists()).then_some((top, files))
 }
 
-/// Returns the files of a list, behind the name of what was made of them; a backslash keeps a
-/// blank.
+/// Returns the files of a list of cargo, `TARGET: FILE FILE`, in which a backslash stands before a
+/// blank of a name.
 fn paths(list: &str) -> Vec<PathBuf> {
     let (_, list) = list.split_once(": ").unwrap_or_default();
     let (mut files, mut path) = (Vec::new(), String::new());
@@ -193,7 +184,7 @@ fn paths(list: &str) -> Vec<PathBuf> {
     files
 }
 
-/// Returns a path without `..`.
+/// Returns a path in which `..` is resolved by its words alone.
 fn real(path: &Path) -> PathBuf {
     let mut real = PathBuf::new();
     for part in path.components() {
@@ -208,8 +199,8 @@ fn real(path: &Path) -> PathBuf {
 /// Returns the path of a file from a folder, with `/` and `..`; what build scripts made is found in
 /// a folder with another name on each machine.
 fn name(path: &Path, top: &Path) -> String {
-    let text = path.to_string_lossy();
-    if let Some((folder, made)) = text.rsplit_once("/out/")
+    let path_text = path.to_string_lossy();
+    if let Some((folder, made)) = path_text.rsplit_once("/out/")
         && folder.contains("/build/")
     {
         return format!("made by a build script: {made}");

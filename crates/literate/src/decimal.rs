@@ -14,9 +14,9 @@ pub(crate) struct Decimal {
 
 impl Decimal {
     /// Reads a number such as 1.5e-4 with all its digits; zero keeps its decimals.
-    pub fn read(text: &str) -> Decimal {
-        let text = text.trim_start_matches('-').to_lowercase();
-        let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    pub fn read(written: &str) -> Decimal {
+        let written = written.trim_start_matches('-').to_lowercase();
+        let (mantissa, exponent) = written.split_once('e').unwrap_or((&written, "0"));
         let decimals = mantissa.split_once('.').map_or(0, |(_, after)| after.len()) as i32;
         let digits: String = mantissa.replace('.', "").trim_start_matches('0').into();
         let exponent = exponent.parse().map_or(-1_000_000, i16::into);
@@ -24,8 +24,8 @@ impl Decimal {
         Decimal { digits, places: decimals - exponent }
     }
 
-    /// Returns the decimal that is meant by a double: of a few digits the one that data files show,
-    /// and else its exact value.
+    /// Returns the decimal number that a double stands for: the shortest one if it has few digits,
+    /// as in data files, and else the exact value.
     pub fn meant(x: f64) -> Decimal {
         let shortest = Decimal::shortest(x);
         if shortest.digits.len() <= 15 { shortest } else { Decimal::exact(x) }
@@ -42,11 +42,11 @@ impl Decimal {
         Decimal::read(&format!("{:e}", x.abs()))
     }
 
-    /// Leaves zeros at the end of the digits out.
+    /// Returns the same number without zeros at the end of its digits.
     pub fn trimmed(mut self) -> Decimal {
-        let kept = self.digits.trim_end_matches('0').len();
-        self.places -= (self.digits.len() - kept) as i32;
-        self.digits.truncate(kept);
+        let length = self.digits.trim_end_matches('0').len();
+        self.places -= (self.digits.len() - length) as i32;
+        self.digits.truncate(length);
         self
     }
 
@@ -69,11 +69,11 @@ impl Decimal {
         let less = (self.places - places).max(0) as usize;
         let digits = match self.digits.len().checked_sub(less) {
             _ if self.digits.is_empty() => String::new(),
-            Some(kept) if less > 0 => {
-                let (kept, rest) = self.digits.split_at(kept);
+            Some(whole) if less > 0 => {
+                let (whole, rest) = self.digits.split_at(whole);
                 let half = rest.trim_end_matches('0').cmp("5");
-                let is_odd = kept.ends_with(['1', '3', '5', '7', '9']);
-                if half.is_gt() || half.is_eq() && is_odd { next(kept) } else { kept.into() }
+                let is_odd = whole.ends_with(['1', '3', '5', '7', '9']);
+                if half.is_gt() || half.is_eq() && is_odd { next(whole) } else { whole.into() }
             }
             Some(_) => self.digits.clone() + &"0".repeat(more),
             None => String::new(),
@@ -81,15 +81,16 @@ impl Decimal {
         Decimal { digits, places }
     }
 
-    /// Rounds to this many significant digits; zero has none.
+    /// Rounds to this many significant digits; zero stays as it is.
     pub fn significant(&self, digits: usize) -> Decimal {
         if self.digits.is_empty() {
             return self.rounded(0);
         }
         let digits = digits.clamp(1, MAX_DIGITS) as i32;
-        let found = self.rounded(digits - 1 - self.exponent());
+        let rounded = self.rounded(digits - 1 - self.exponent());
         // 9.96 rounds to 10.0, which has a digit more.
-        if found.digits.len() as i32 > digits { found.rounded(found.places - 1) } else { found }
+        let is_longer = rounded.digits.len() as i32 > digits;
+        if is_longer { rounded.rounded(rounded.places - 1) } else { rounded }
     }
 
     pub fn written(&self) -> String {

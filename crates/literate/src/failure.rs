@@ -37,8 +37,8 @@ impl Failure {
         Failure::input(format!("{what}: {error}; {}", remedy(error, otherwise)))
     }
 
-    pub fn of(self, place: impl Display) -> Self {
-        Failure { message: format!("{place}: {}", self.message), ..self }
+    pub fn in_context(self, context: impl Display) -> Self {
+        Failure { message: format!("{context}: {}", self.message), ..self }
     }
 }
 

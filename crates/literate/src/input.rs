@@ -2,6 +2,7 @@
 
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
+use std::fmt;
 use std::fs::File;
 use std::io::{Error, ErrorKind, Read};
 use std::panic::Location;
@@ -12,31 +13,31 @@ use std::sync::RwLock;
 pub const MOST: u64 = 64;
 
 pub fn read_from(file: impl Read) -> Result<String, Error> {
-    text(bounded(file)?)
+    decode(read_bounded(file)?)
 }
 
 /// Reads a whole file, if it is a regular one: opening a pipe waits for its other end.
-pub fn regular(path: &Path) -> Result<Vec<u8>, Error> {
+pub fn read_file(path: &Path) -> Result<Vec<u8>, Error> {
     if !std::fs::metadata(path)?.is_file() {
         return Err(Error::new(ErrorKind::InvalidInput, "not a regular file"));
     }
-    bounded(File::open(path)?)
+    read_bounded(File::open(path)?)
 }
 
-pub fn regular_text(path: &Path) -> Result<String, Error> {
-    text(regular(path)?)
+pub fn read_text(path: &Path) -> Result<String, Error> {
+    decode(read_file(path)?)
 }
 
 /// Reads bytes as text, without a byte-order mark. Lines end in `\n` however they end in the file,
 /// so that all that is made of them has the same bytes.
-fn text(bytes: Vec<u8>) -> Result<String, Error> {
+fn decode(bytes: Vec<u8>) -> Result<String, Error> {
     let wrong = |_| Error::new(ErrorKind::InvalidData, "not valid UTF-8");
-    let text = String::from_utf8(bytes).map_err(wrong)?;
-    let text = text.trim_start_matches('\u{feff}');
-    Ok(if text.contains('\r') { text.replace("\r\n", "\n") } else { text.into() })
+    let content = String::from_utf8(bytes).map_err(wrong)?;
+    let content = content.trim_start_matches('\u{feff}');
+    Ok(if content.contains('\r') { content.replace("\r\n", "\n") } else { content.into() })
 }
 
-fn bounded(file: impl Read) -> Result<Vec<u8>, Error> {
+fn read_bounded(file: impl Read) -> Result<Vec<u8>, Error> {
     let (mut bytes, most) = (Vec::new(), MOST << 20);
     file.take(most + 1).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > most {
@@ -52,7 +53,7 @@ pub fn sha256(bytes: impl AsRef<[u8]>) -> String {
 
 /// Lists a file, or all files below a folder, links included, by their paths from the folder `top`.
 /// An error names the path that is missing or cannot be opened.
-pub fn files_in(top: &Path, place: &str) -> Result<Vec<String>, Error> {
+pub fn list_files(top: &Path, place: &str) -> Result<Vec<String>, Error> {
     let (mut files, mut open) = (Vec::new(), vec![place.to_string()]);
     while let Some(path) = open.pop() {
         let here = top.join(&path);
@@ -71,17 +72,17 @@ pub fn files_in(top: &Path, place: &str) -> Result<Vec<String>, Error> {
     Ok(files)
 }
 
-/// Computes the SHA-256 of the files that [`files_in`] lists, of whatever size.
-pub fn hashes(top: &Path, place: &str) -> Result<BTreeMap<String, String>, Error> {
+/// Computes the SHA-256 of the files that [`list_files`] lists, of whatever size.
+pub fn hash_files(top: &Path, place: &str) -> Result<BTreeMap<String, String>, Error> {
     let hash = |path: String| Ok((path.clone(), sha256(std::fs::read(top.join(path))?)));
-    files_in(top, place)?.into_iter().map(hash).collect()
+    list_files(top, place)?.into_iter().map(hash).collect()
 }
 
 pub fn is_absent(error: &Error) -> bool {
     [ErrorKind::NotFound, ErrorKind::NotADirectory].contains(&error.kind())
 }
 
-/// Returns the remedy for an error of the system: `otherwise` where the place is at fault.
+/// Returns what to do about an error of the system, which is `otherwise` if the place is at fault.
 pub fn remedy<'a>(error: &Error, otherwise: &'a str) -> &'a str {
     match error.kind() {
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::WriteZero => "make room",
@@ -100,41 +101,66 @@ pub const STAGING: &str = ".staging-literate-";
 pub static WRITING: RwLock<()> = RwLock::new(());
 
 /// Describes a TOML error with its line, from 1, and a remedy: `12: missing field …; correct …`.
-pub fn toml_fault(text: &str, error: &toml::de::Error) -> String {
-    let before = error.span().and_then(|span| text.get(..span.start)).unwrap_or_default();
-    let what = one_line(&plain(error.message()), 300);
-    format!("{}: {what}; correct this line, or restore the file", line(before))
+pub fn toml_fault(toml: &str, error: &toml::de::Error) -> String {
+    let before = error.span().and_then(|span| toml.get(..span.start)).unwrap_or_default();
+    let problem = one_line(&in_plain_words(error.message()), 300);
+    format!("{}: {problem}; correct this line, or restore the file", line_number(before))
 }
 
 /// Returns the number of the line that a text ends in, from 1.
-pub fn line(before: &str) -> usize {
+pub fn line_number(before: &str) -> usize {
     before.matches('\n').count() + 1
 }
 
-/// Returns line and column in characters, from 1, of an offset in a text: `12:5`.
-pub fn line_and_column(text: &str, offset: usize) -> String {
-    let before = text.get(..offset).unwrap_or(text);
-    let column = before.rsplit('\n').next().unwrap_or_default().chars().count() + 1;
-    format!("{}:{column}", line(before))
+/// A place in a file, with line and column in characters, from 1, where they are known.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Place {
+    file: String,
+    line_and_column: Option<(usize, usize)>,
+}
+
+impl Place {
+    /// Returns the place of an offset in the text of a file.
+    pub fn in_text(file: String, text: &str, offset: usize) -> Place {
+        let before = text.get(..offset).unwrap_or(text);
+        let column = before.rsplit('\n').next().unwrap_or_default().chars().count() + 1;
+        Place { file, line_and_column: Some((line_number(before), column)) }
+    }
+}
+
+impl From<String> for Place {
+    fn from(file: String) -> Place {
+        Place { file, line_and_column: None }
+    }
+}
+
+/// Writes the place as editors read it: `report.md:12:5`.
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.line_and_column {
+            Some((line, column)) => write!(f, "{}:{line}:{column}", self.file),
+            None => f.write_str(&self.file),
+        }
+    }
 }
 
 /// Returns a message in one line of at most `most` characters; a longer one keeps its beginning
 /// and its end. Parsers repeat their input, which may be of any length.
-pub fn one_line(text: &str, most: usize) -> String {
-    let line = text.replace(is_control, " ");
-    let line = line.trim();
-    let length = line.chars().count();
+pub fn one_line(input: &str, most: usize) -> String {
+    let message = input.replace(is_control, " ");
+    let message = message.trim();
+    let length = message.chars().count();
     if length <= most {
-        return line.into();
+        return message.into();
     }
     let (head, tail) = (most * 2 / 3, most - most * 2 / 3 - 1);
-    let head = line.chars().take(head);
-    head.chain(['…']).chain(line.chars().skip(length - tail)).collect()
+    let head = message.chars().take(head);
+    head.chain(['…']).chain(message.chars().skip(length - tail)).collect()
 }
 
 /// Writes a place in the source: `src/main.rs:12`.
-pub(crate) fn place(at: &Location<'_>) -> String {
-    format!("{}:{}", at.file(), at.line())
+pub(crate) fn source_line(location: &Location<'_>) -> String {
+    format!("{}:{}", location.file(), location.line())
 }
 
 /// Counts things in words: `3 numbers`, `1 number`, `no number`.
@@ -165,7 +191,7 @@ const PLAIN: [(&str, &str); 11] = [
     ("cannot parse integer from empty string", WHOLE),
 ];
 
-pub fn plain(message: &str) -> String {
+pub fn in_plain_words(message: &str) -> String {
     let put = |line: String, (theirs, ours): &(&str, &str)| line.replace(theirs, ours);
     PLAIN.iter().fold(message.into(), put)
 }
@@ -189,9 +215,9 @@ mod tests {
     fn lines_end_the_same_way_and_what_is_no_text_is_refused() {
         let file = tempfile::NamedTempFile::new().unwrap();
         std::fs::write(file.path(), "\u{feff}$a\r\n= b$\r\n\r\nc\rd\n").unwrap();
-        assert_eq!(regular_text(file.path()).unwrap(), "$a\n= b$\n\nc\rd\n");
+        assert_eq!(read_text(file.path()).unwrap(), "$a\n= b$\n\nc\rd\n");
         std::fs::write(file.path(), [b'a', 0xff]).unwrap();
-        assert_eq!(regular_text(file.path()).unwrap_err().to_string(), "not valid UTF-8");
+        assert_eq!(read_text(file.path()).unwrap_err().to_string(), "not valid UTF-8");
     }
 
     #[test]

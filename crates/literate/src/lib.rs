@@ -24,7 +24,7 @@
 //!     .real("share", "1", 3, "What is left.", |row| row.1)
 //!     .done();
 //! assert_eq!(table.number(&[("n", 2.0)], "share")?, 0.25);
-//! assert!(table.at("halving.rows[n=2].share").is_some());
+//! assert!(table.cell("halving.rows[n=2].share").is_some());
 //! # Ok::<(), literate::table::Missing>(())
 //! ```
 
@@ -53,7 +53,7 @@ pub mod prelude {
     pub use crate::table::Table;
     pub use crate::{Failure, Paper, numbers, sources};
     pub use impact_numerics::estimates::with_error;
-    pub use impact_numerics::random::{NormalPairs, generator};
+    pub use impact_numerics::random::{NormalPairs, Seed, generator};
     pub use impact_numerics::statistics::Estimate;
     pub use rand::RngExt;
 }

@@ -25,18 +25,21 @@ pub fn fault(name: &str) -> Option<String> {
 pub struct Names(BTreeMap<String, (String, String)>);
 
 impl Names {
-    /// Adds the name of a thing at a place in the source. Fails if there is one before that differs
-    /// in nothing, in the case of letters, or in `.`, `:` and `-` only.
+    /// Adds the name of a thing at a place in the source. Fails if an earlier name is the same, or
+    /// differs only in the case of letters or in `.`, `:` and `-`.
     pub fn add(&mut self, name: &str, place: &str) -> Result<(), String> {
-        let file = name.to_lowercase().replace(['.', ':'], "-");
-        let Some((other, before)) = self.0.insert(file, (name.into(), place.into())) else {
+        let file_name = name.to_lowercase().replace(['.', ':'], "-");
+        let Some((other, earlier_place)) = self.0.insert(file_name, (name.into(), place.into()))
+        else {
             return Ok(());
         };
         Err(if other == name {
-            format!("the name {name}: {before} and {place}; rename one")
+            format!("the name {name}: {earlier_place} and {place}; rename one")
         } else {
-            let what = "which differ in case or in . and - only, so that they have one file";
-            format!("the names {other} and {name}, {what}: {before} and {place}; rename one")
+            let reason = "which differ in case or in . and - only, so that they have one file";
+            format!(
+                "the names {other} and {name}, {reason}: {earlier_place} and {place}; rename one"
+            )
         })
     }
 }

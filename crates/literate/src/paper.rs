@@ -33,13 +33,13 @@ impl FigureSpec {
     }
 
     pub fn figure(&self, results: &Results) -> Result<Figure, Failure> {
-        let named = |error| Failure::from(error).of(format!("figure {}", self.name));
+        let named = |error| Failure::from(error).in_context(format!("figure {}", self.name));
         let mut figure = (self.draw)(results).map_err(named)?;
         figure.data.iter_mut().for_each(|file| file.name.insert_str(0, self.name));
         let mut names = BTreeSet::new();
         if let Some(file) = figure.data.iter().find(|file| !names.insert(&file.name)) {
-            let what = format!("figure {}: two panels name their data {}", self.name, file.name);
-            return Err(Failure::input(format!("{what}; give each a letter (`with_suffix`)")));
+            let problem = format!("figure {}: two panels name their data {}", self.name, file.name);
+            return Err(Failure::input(format!("{problem}; give each a letter (`with_suffix`)")));
         }
         let experiments = self.needs.iter().map(|need| need.name()).collect();
         // The item that draws it has its name.
@@ -48,11 +48,12 @@ impl FigureSpec {
     }
 
     /// Returns whether `text` means it: its name, or `3` for `fig03`.
-    fn is(&self, text: &str) -> bool {
-        let lower = text.to_lowercase();
+    fn is(&self, name_or_number: &str) -> bool {
+        let lower = name_or_number.to_lowercase();
         let digits = lower.trim_start_matches(char::is_alphabetic);
         let letters = lower.strip_suffix(digits).filter(|letters| !letters.is_empty());
-        self.name == text || self.name == format!("{}{digits:0>2}", letters.unwrap_or("fig"))
+        self.name == name_or_number
+            || self.name == format!("{}{digits:0>2}", letters.unwrap_or("fig"))
     }
 }
 
@@ -62,7 +63,7 @@ pub type Values = fn(&Results, &Published) -> Result<Vec<Value>, Failure>;
 /// Makes rows of tables that are neither values nor checks, by the names that the prose uses.
 pub type Rows = fn(&Results, &[Check]) -> Result<BTreeMap<&'static str, Json>, Failure>;
 
-/// Makes `lab.js`, which a page loads to compute; none if it cannot be made here.
+/// Makes `lab.js`, which a page loads to compute, or returns `None` if it cannot be made here.
 pub type Lab = fn(&Session<'_>, &Results) -> Result<Option<String>, Failure>;
 
 pub struct Paper {
@@ -142,10 +143,10 @@ impl Paper {
             named.push(("experiments", experiment.name(), place));
         }
         for FigureSpec { name, place, .. } in &self.figures {
-            named.push(("figures", name, input::place(place)));
+            named.push(("figures", name, input::source_line(place)));
         }
         for Rule { id, place, .. } in &self.rules {
-            named.push(("rules", id, input::place(place)));
+            named.push(("rules", id, input::source_line(place)));
         }
         for document in &self.edition.documents {
             for name in [document.markdown, document.page] {
@@ -156,18 +157,21 @@ impl Paper {
         for (kind, name, place) in named {
             let fault = names::fault(name).map(|fault| format!("{place}: {fault}"));
             let same = || kinds.entry(kind).or_default().add(name, &place).err();
-            if let Some(what) = fault.or_else(same) {
-                return Err(Failure::input(format!("{kind}: {what}")));
+            if let Some(problem) = fault.or_else(same) {
+                return Err(Failure::input(format!("{kind}: {problem}")));
             }
         }
         Ok(())
     }
 
     /// Finds a figure by its name or number: `spread`, `3`, `s1`.
-    pub fn find_figure(&self, text: &str) -> Result<&FigureSpec, Failure> {
-        self.figures.iter().find(|figure| figure.is(text)).ok_or_else(|| {
+    pub fn find_figure(&self, name_or_number: &str) -> Result<&FigureSpec, Failure> {
+        self.figures.iter().find(|figure| figure.is(name_or_number)).ok_or_else(|| {
             let names: Vec<&str> = self.figures.iter().map(|figure| figure.name).collect();
-            Failure::input(format!("there is no figure {text:?}; there are {}", names.join(", ")))
+            Failure::input(format!(
+                "there is no figure {name_or_number:?}; there are {}",
+                names.join(", ")
+            ))
         })
     }
 }
@@ -185,10 +189,10 @@ mod tests {
         let paper = Paper::new("toy", toy()).figure("fig03", &[], draw);
         let paper = paper.figure("s01", &[], draw).figure("spread", &[], draw);
         paper.check_names().unwrap();
-        for (text, name) in
+        for (asked, name) in
             [("3", "fig03"), ("fig03", "fig03"), ("S1", "s01"), ("spread", "spread")]
         {
-            assert_eq!(paper.find_figure(text).map(|figure| figure.name).unwrap(), name);
+            assert_eq!(paper.find_figure(asked).map(|figure| figure.name).unwrap(), name);
         }
         assert!(paper.find_figure("16").err().unwrap().message.contains("fig03, s01, spread"));
         let twice = paper.figure("s01", &[], draw).check_names().unwrap_err().message;

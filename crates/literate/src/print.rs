@@ -1,6 +1,6 @@
 //! Chooses how many digits of a value are printed, the same in every format.
 //!
-//! [`print()`] returns the digits as data, [`Shown`]; each format writes them in its markup. Only
+//! [`print()`] returns the digits as data, [`Printed`]; each format writes them in its markup. Only
 //! the decimal conversion of Rust is used, which rounds exactly and alike on every platform.
 
 use crate::decimal::Decimal;
@@ -9,63 +9,65 @@ use crate::value::{Digits, Number, Value, Written};
 /// What filters of a template change of a value.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Style {
-    pub percent: bool,
+    pub in_percent: bool,
     pub digits: Option<Digits>,
 }
 
 /// A value as readers see it, before any markup.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Shown {
+pub enum Printed {
     Words(String),
     Number(Numeral),
 }
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Numeral {
-    pub negative: bool,
+    pub is_negative: bool,
     /// Digits with at most one decimal point; long integers have narrow spaces between groups.
     pub digits: String,
     /// The standard error in units of the last digit, which is printed in brackets.
     pub error: Option<String>,
     pub exponent: Option<i32>,
-    pub percent: bool,
+    pub in_percent: bool,
 }
 
 /// Chooses the digits of a number, which is rounded once, from the decimal that it is meant to be.
-pub fn print(number: &Number, style: Style) -> Shown {
-    let power = if style.percent { 2 } else { 0 };
+pub fn print(number: &Number, style: Style) -> Printed {
+    let power = if style.in_percent { 2 } else { 0 };
     let (negative, numeral) = match *number {
-        Number::None => return Shown::Words("–".into()),
-        Number::Text(ref words) => return Shown::Words(words.clone()),
+        Number::None => return Printed::Words("–".into()),
+        Number::Text(ref words) => return Printed::Words(words.clone()),
         // No table has such a number, but a message may.
-        Number::Real { value, .. } if !value.is_finite() => return Shown::Words(value.to_string()),
+        Number::Real { value, .. } if !value.is_finite() => {
+            return Printed::Words(value.to_string());
+        }
         Number::Integer(n) => {
             let integer = Decimal::integer(n);
             let numeral = match style.digits {
                 Some(Digits::Significant(n)) => numeral(integer.significant(n).times_ten(power)),
-                _ if style.percent => numeral(integer.times_ten(power)),
-                _ => plain(grouped(integer.written())),
+                _ if style.in_percent => numeral(integer.times_ten(power)),
+                _ => of_digits(grouped(integer.written())),
             };
             (n < 0, numeral)
         }
         Number::Real { value, digits } => {
-            let read = |else_as: fn(f64) -> Decimal| match digits {
+            let decimal = |from_double: fn(f64) -> Decimal| match digits {
                 Digits::Text(Written(text)) => Decimal::read(text),
-                _ => else_as(value),
+                _ => from_double(value),
             };
             let numeral = match style.digits.unwrap_or(digits) {
                 Digits::Error(error) => with_error(value, error, power),
                 Digits::Significant(n) => {
-                    numeral(read(Decimal::meant).significant(n).times_ten(power))
+                    numeral(decimal(Decimal::meant).significant(n).times_ten(power))
                 }
                 Digits::Decimals(n) => {
-                    let rounded = read(Decimal::meant).rounded((n as i32).max(power));
-                    plain(rounded.times_ten(power).written())
+                    let rounded = decimal(Decimal::meant).rounded((n as i32).max(power));
+                    of_digits(rounded.times_ten(power).written())
                 }
-                Digits::Full | Digits::Text(_) => match (read(Decimal::shortest), digits) {
-                    (zero, Digits::Text(_)) if zero.digits.is_empty() => plain(zero.written()),
+                Digits::Full | Digits::Text(_) => match (decimal(Decimal::shortest), digits) {
+                    (zero, Digits::Text(_)) if zero.digits.is_empty() => of_digits(zero.written()),
                     (whole, Digits::Text(_)) if whole.places == power => {
-                        plain(grouped(whole.times_ten(power).written()))
+                        of_digits(grouped(whole.times_ten(power).written()))
                     }
                     (full, _) => numeral(full.times_ten(power)),
                 },
@@ -74,57 +76,57 @@ pub fn print(number: &Number, style: Style) -> Shown {
         }
     };
     // What rounds to zero has no sign.
-    let negative = negative && numeral.digits.contains(|c: char| ('1'..='9').contains(&c));
-    Shown::Number(Numeral { negative, percent: style.percent, ..numeral })
+    let is_negative = negative && numeral.digits.contains(|c: char| ('1'..='9').contains(&c));
+    Printed::Number(Numeral { is_negative, in_percent: style.in_percent, ..numeral })
 }
 
-impl Shown {
-    /// Writes it as TeX inside a formula: `0.1165(4)`, `1.2\times10^{-5}`.
-    pub fn tex(&self) -> String {
+impl Printed {
+    /// Writes it as TeX for a formula: `0.1165(4)`, `1.2\times10^{-5}`.
+    pub fn to_tex(&self) -> String {
         match self {
-            Shown::Words(words) => format!(r"\text{{{words}}}"),
-            Shown::Number(numeral) => {
-                let percent = if numeral.percent { r"\,\%" } else { "" };
-                let power = numeral.tex_power();
-                format!("{}{percent}", power.unwrap_or_else(|| numeral.tex_digits()))
+            Printed::Words(words) => format!(r"\text{{{words}}}"),
+            Printed::Number(numeral) => {
+                let percent = if numeral.in_percent { r"\,\%" } else { "" };
+                let power = numeral.power_to_tex();
+                format!("{}{percent}", power.unwrap_or_else(|| numeral.digits_to_tex()))
             }
         }
     }
 
     /// Writes it for terminals and data files: `0.1165(4)`, `1.2e-5`, `94.5 %`.
-    pub fn plain(&self) -> String {
+    pub fn to_plain_text(&self) -> String {
         let numeral = match self {
-            Shown::Words(words) => return words.replace(NARROW_SPACE, ""),
-            Shown::Number(numeral) => numeral,
+            Printed::Words(words) => return words.replace(NARROW_SPACE, ""),
+            Printed::Number(numeral) => numeral,
         };
         let power = numeral.exponent.map(|e| format!("e{e}")).unwrap_or_default();
-        let percent = if numeral.percent { " %" } else { "" };
+        let percent = if numeral.in_percent { " %" } else { "" };
         format!("{}{power}{percent}", numeral.signed("-")).replace(NARROW_SPACE, "")
     }
 }
 
 impl Numeral {
-    /// Returns sign, digits and error, without power and percent sign.
+    /// Returns sign, digits and error, without the power of ten and the sign of per cent.
     pub fn signed(&self, minus: &str) -> String {
-        let minus = if self.negative { minus } else { "" };
+        let minus = if self.is_negative { minus } else { "" };
         let error = self.error.as_ref().map(|e| format!("({e})")).unwrap_or_default();
         format!("{minus}{}{error}", self.digits)
     }
 
     /// Returns whether only the power of ten is written: 10^−9 and not 1 × 10^−9.
     pub fn is_power_alone(&self) -> bool {
-        self.exponent.is_some() && self.digits == "1" && !self.negative && self.error.is_none()
+        self.exponent.is_some() && self.digits == "1" && !self.is_negative && self.error.is_none()
     }
 
-    pub fn tex_power(&self) -> Option<String> {
+    pub fn power_to_tex(&self) -> Option<String> {
         let exponent = self.exponent?;
         if self.is_power_alone() {
             return Some(format!("10^{{{exponent}}}"));
         }
-        Some(format!(r"{}\times10^{{{exponent}}}", self.tex_digits()))
+        Some(format!(r"{}\times10^{{{exponent}}}", self.digits_to_tex()))
     }
 
-    fn tex_digits(&self) -> String {
+    fn digits_to_tex(&self) -> String {
         self.signed("-").replace(NARROW_SPACE, r"\,")
     }
 }
@@ -134,12 +136,12 @@ const NARROW_SPACE: char = '\u{202f}';
 /// Writes a number with a power of ten below 10^−3 and from 10^6 on.
 fn numeral(number: Decimal) -> Numeral {
     match number.exponent() {
-        -3..6 => plain(number.written()),
-        power => Numeral { exponent: Some(power), ..plain(number.times_ten(-power).written()) },
+        -3..6 => of_digits(number.written()),
+        power => Numeral { exponent: Some(power), ..of_digits(number.times_ten(-power).written()) },
     }
 }
 
-fn plain(digits: String) -> Numeral {
+fn of_digits(digits: String) -> Numeral {
     Numeral { digits, ..Numeral::default() }
 }
 
@@ -168,24 +170,24 @@ fn with_error(x: f64, error: f64, power: i32) -> Numeral {
     Numeral { error: Some(error), ..number }
 }
 
-/// Writes digits in groups of three from five digits on, with a narrow space that does not break.
+/// Groups the digits of an integer by threes with a narrow space if there are five or more.
 fn grouped(digits: String) -> String {
     if digits.len() < 5 {
         return digits;
     }
     let (first, rest) = digits.split_at((digits.len() - 1) % 3 + 1);
-    let mut out = first.to_string();
-    for at in (0..rest.len()).step_by(3) {
-        out.push(NARROW_SPACE);
-        out += &rest[at..at + 3];
+    let mut grouped = first.to_string();
+    for start in (0..rest.len()).step_by(3) {
+        grouped.push(NARROW_SPACE);
+        grouped += &rest[start..start + 3];
     }
-    out
+    grouped
 }
 
 impl Value {
     /// Returns the value in its digits, for terminals and data: `0.1165(4)`.
-    pub fn plain(&self) -> String {
-        print(&self.number, Style::default()).plain()
+    pub fn to_plain_text(&self) -> String {
+        print(&self.number, Style::default()).to_plain_text()
     }
 }
 
@@ -194,11 +196,11 @@ mod tests {
     use super::*;
     use impact_numerics::estimates::with_error;
 
-    fn error(value: f64, error: f64) -> Shown {
+    fn error(value: f64, error: f64) -> Printed {
         print(&with_error(value, error).into(), Style::default())
     }
 
-    fn real(value: f64, digits: usize) -> Shown {
+    fn real(value: f64, digits: usize) -> Printed {
         print(&Value::real("x", value, digits).number, Style::default())
     }
 
@@ -232,7 +234,7 @@ mod tests {
             (0.95, 0.35, "1.0(4)"),
             (10.0, 0.95, "10.0(1.0)"),
         ] {
-            assert_eq!(error(value, e).plain(), text, "{value} ± {e}");
+            assert_eq!(error(value, e).to_plain_text(), text, "{value} ± {e}");
         }
     }
 
@@ -240,8 +242,8 @@ mod tests {
     fn each_markup_has_its_minus_power_and_percent() {
         let big = print(&Number::Integer(1_234_567), Style::default());
         let number = with_error(0.9453, 0.0081).into();
-        let percent = print(&number, Style { percent: true, ..Style::default() });
-        for (shown, [tex, plain]) in [
+        let percent = print(&number, Style { in_percent: true, ..Style::default() });
+        for (printed, [tex, plain]) in [
             (real(-3.25, 3), ["-3.25", "-3.25"]),
             (real(1.2e-5, 2), [r"1.2\times10^{-5}", "1.2e-5"]),
             (real(1e-9, 1), ["10^{-9}", "1e-9"]),
@@ -249,14 +251,14 @@ mod tests {
             (big, [r"1\,234\,567", "1234567"]),
             (percent, [r"94.5(8)\,\%", "94.5(8) %"]),
         ] {
-            assert_eq!([shown.tex(), shown.plain()], [tex, plain]);
+            assert_eq!([printed.to_tex(), printed.to_plain_text()], [tex, plain]);
         }
     }
 
     /// Fewer digits of a double are those of the decimal conversion of Rust, which rounds exactly.
     #[test]
     fn numbers_are_rounded_once_and_read_back_the_same() {
-        let plain = |number| print(&number, Style::default()).plain();
+        let plain = |number| print(&number, Style::default()).to_plain_text();
         let mut bits = 1_u64;
         for round in 0..500_000_usize {
             bits = bits.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(12_345);
@@ -297,7 +299,7 @@ mod tests {
             (full(2.675), Some(Digits::Significant(3)), false, "2.68"),
             (full(9.995), Some(Digits::Significant(3)), false, "10.0"),
         ] {
-            assert_eq!(print(&number, Style { percent, digits }).plain(), text);
+            assert_eq!(print(&number, Style { in_percent: percent, digits }).to_plain_text(), text);
         }
     }
 }

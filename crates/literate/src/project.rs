@@ -55,7 +55,7 @@ impl Project {
                 Some(text) if self.find(place).is_none() => {
                     hashes.insert(place.to_string(), sha256(text));
                 }
-                _ => hashes.extend(input::hashes(&self.folder(), place)?),
+                _ => hashes.extend(input::hash_files(&self.folder(), place)?),
             }
         }
         Ok(hashes)
@@ -71,17 +71,18 @@ impl Project {
         let is_there = |place: &str| {
             is_source(place) || self.copied(place).is_some() || self.folder().join(place).exists()
         };
-        let Some(lost) = files.iter().find(|place| !is_there(place)) else { return Ok(()) };
+        let Some(absent) = files.iter().find(|place| !is_there(place)) else { return Ok(()) };
         let remedy = match self.top() {
             Some(_) => "correct the path",
             None => "run this in the project, or name its folder in LITERATE_PROJECT",
         };
-        Err((format!("it lists {lost}, which is not there"), remedy))
+        Err((format!("it lists {absent}, which is not there"), remedy))
     }
 
-    /// Finds a file or folder of the project; none if only the copy inside has it.
+    /// Returns the path to a file or folder of the project, or `None` if only the copy inside the
+    /// program has it.
     pub fn find(&self, path: &str) -> Option<PathBuf> {
-        Some(self.path_to_top()?.join(path)).filter(|found| found.exists())
+        Some(self.path_to_top()?.join(path)).filter(|place| place.exists())
     }
 
     /// Returns the path to the top of the project, by the current folder or the environment.
@@ -89,7 +90,8 @@ impl Project {
         self.path_up().or_else(|| std::env::var_os("LITERATE_PROJECT").map(PathBuf::from))
     }
 
-    /// Returns the way from the current folder up to the top of the project, if it lies in it.
+    /// Returns the path from the current folder up to the top of the project, or `None` if the
+    /// current folder lies elsewhere.
     fn path_up(&self) -> Option<PathBuf> {
         let (path, _) = self.sources.files.iter().find(|(path, _)| path.contains('/'))?;
         let here = std::env::current_dir().ok()?;
@@ -97,7 +99,8 @@ impl Project {
         Some("../".repeat(above).into())
     }
 
-    /// Returns where a file of the project is written: from outside, below the current folder.
+    /// Returns the path at which a file of the project is written: below its top, or below the
+    /// current folder if this lies elsewhere.
     pub fn place(&self, path: &str) -> PathBuf {
         self.path_up().unwrap_or_default().join(path)
     }
@@ -110,7 +113,8 @@ impl Project {
         self.top().unwrap_or_else(|| ".".into())
     }
 
-    /// Returns the first file of the source that has changed since the program was built.
+    /// Returns a file of the source that has changed since the program was built, or `None` if
+    /// there is no such file.
     pub fn changed(&self) -> Option<&'static str> {
         let top = self.top()?;
         let differs = |path: &str, text: &str| {
@@ -125,7 +129,8 @@ impl Project {
         self.top().is_none_or(|top| top.join(path).exists())
     }
 
-    /// Returns the way from a folder, which may be absent, up to the top: `../`; none from outside.
+    /// Returns the path from a folder, which may be absent, up to the top of the project, as `../`,
+    /// or `None` if it lies elsewhere.
     pub fn way_up(&self, folder: &Path) -> Option<String> {
         let folder = std::path::absolute(folder).ok()?;
         let real =
@@ -137,8 +142,8 @@ impl Project {
 
     /// Reads a file by its path from the top of the project.
     pub fn text(&self, path: &str) -> io::Result<Cow<'static, str>> {
-        if let Some(found) = self.find(path) {
-            return input::regular_text(&found).map(Cow::Owned);
+        if let Some(place) = self.find(path) {
+            return input::read_text(&place).map(Cow::Owned);
         }
         let missing =
             || io::Error::new(io::ErrorKind::NotFound, "it is not there; run this in the project");

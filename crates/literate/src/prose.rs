@@ -50,14 +50,14 @@ pub struct Templates {
 }
 
 impl Templates {
-    pub fn of<'a>(files: impl IntoIterator<Item = (&'a str, &'a str)>) -> Self {
+    pub fn from_files<'a>(files: impl IntoIterator<Item = (&'a str, &'a str)>) -> Self {
         let files = SKIN.into_iter().chain(files);
         let files = files.map(|(path, text)| (path.to_string(), text.to_string())).collect();
         Templates { files, ..Templates::default() }
     }
 
     pub fn read(folder: &Path) -> Result<Self, Error> {
-        let mut templates = Templates::of([]);
+        let mut templates = Templates::from_files([]);
         let here = std::env::current_dir().unwrap_or_default();
         templates.folder = format!("{}/", folder.strip_prefix(here).unwrap_or(folder).display());
         templates.add(folder, "")?;
@@ -74,8 +74,8 @@ impl Templates {
             if path.is_dir() && !path.is_symlink() {
                 self.add(&path, &format!("{prefix}{name}/"))?;
             } else if TEXT.iter().any(|end| name.ends_with(end)) {
-                let text = input::regular_text(&path).map_err(|e| fail(&path, e))?;
-                self.files.insert(format!("{prefix}{name}"), text);
+                let content = input::read_text(&path).map_err(|e| fail(&path, e))?;
+                self.files.insert(format!("{prefix}{name}"), content);
             }
         }
         Ok(())

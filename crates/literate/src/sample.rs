@@ -50,26 +50,27 @@ impl From<Sampled> for Estimate {
     }
 }
 
-fn of(values: usize, estimate: Estimate) -> Sampled {
+fn with_values(values: usize, estimate: Estimate) -> Sampled {
     Sampled { estimate, sample: Sample::Values(values as u64) }
 }
 
-/// Returns the mean of a sample; none of fewer than two values. Equal values have the error zero,
-/// by which no check judges: use [`share`] where each is yes or no, and a number without an error
-/// where there is no chance.
+/// Returns the mean of a sample, or `None` if it has fewer than two values. Equal values have the
+/// error zero, by which no check judges: use [`share`] where each is yes or no, and a number
+/// without an error where there is no chance.
 pub fn average(values: &[f64]) -> Option<Sampled> {
-    let found = estimates::average(values)?;
+    let mean = estimates::average(values)?;
     // Equal values have no error, also none by rounding.
     let are_equal = values.iter().all(|value| value == &values[0]);
-    Some(of(values.len(), if are_equal { with_error(values[0], 0.0) } else { found }))
+    Some(with_values(values.len(), if are_equal { with_error(values[0], 0.0) } else { mean }))
 }
 
-/// Returns the share `part`/`whole` with its binomial error and Wilson's interval; none if `whole`
-/// is 0. None and all have the error of Wilson's interval, and checks use the exact interval.
+/// Returns the share `part`/`whole` with its binomial error and Wilson's interval, or `None` if
+/// `whole` is 0. Shares of 0 and 1 have the error of Wilson's interval, and checks use the exact
+/// interval.
 pub fn share(part: u64, whole: u64) -> Option<Sampled> {
-    let found = estimates::share(part, whole)?;
-    let error = if found.error > 0.0 { found.error } else { 1.0 / (whole as f64 + 1.0) };
-    let estimate = Estimate { error, interval: wilson(part, whole, LEVEL)?, ..found };
+    let binomial = estimates::share(part, whole)?;
+    let error = if binomial.error > 0.0 { binomial.error } else { 1.0 / (whole as f64 + 1.0) };
+    let estimate = Estimate { error, interval: wilson(part, whole, LEVEL)?, ..binomial };
     Some(Sampled { estimate, sample: Sample::Trials(whole) })
 }
 
@@ -83,15 +84,17 @@ pub fn difference(a: impl Into<Sampled>, b: impl Into<Sampled>) -> Sampled {
     Sampled { estimate: estimates::difference(a.estimate, b.estimate), sample }
 }
 
-/// Returns `statistic` of all realisations, with the error of [`estimates::jackknife`].
+/// Returns a statistic of all realisations with its jackknife error; `statistic` gets the
+/// realisation that it leaves out, or `None`.
 pub fn jackknife(
     realisations: usize,
     statistic: impl Fn(Option<usize>) -> Option<f64>,
 ) -> Option<Sampled> {
-    estimates::jackknife(realisations, statistic).map(|found| of(realisations, found))
+    estimates::jackknife(realisations, statistic)
+        .map(|estimate| with_values(realisations, estimate))
 }
 
 /// Returns the ratio of two sums over realisations, with its jackknife error.
 pub fn ratio(pairs: &[[f64; 2]]) -> Option<Sampled> {
-    estimates::ratio(pairs).map(|found| of(pairs.len(), found))
+    estimates::ratio(pairs).map(|estimate| with_values(pairs.len(), estimate))
 }

@@ -13,7 +13,7 @@ pub struct Sources {
 }
 
 impl Sources {
-    /// Shortens a path of the compiler as documents show it.
+    /// Returns a path of the compiler as documents show it: without the name of the program.
     pub(crate) fn short<'a>(&self, path: &'a str) -> &'a str {
         let (first, rest) = path.split_once("::").unwrap_or(("", path));
         if first == self.name.replace('-', "_") { rest } else { path }
@@ -23,10 +23,10 @@ impl Sources {
     /// last name of its path, and `// end`, without indentation.
     pub fn listing(&self, item: &str) -> Result<String, String> {
         let file = self.file(item);
-        let text = self.files.iter().find(|(path, _)| Some(*path) == file);
+        let source = self.files.iter().find(|(path, _)| Some(*path) == file);
         let name = item.rsplit("::").next().unwrap_or_default();
         let mark = format!("// listing: {name}");
-        let lines = text.map_or("", |(_, text)| text).lines();
+        let lines = source.map_or("", |(_, source)| source).lines();
         let inside = lines.skip_while(|line| line.trim() != mark).skip(1);
         let lines: Vec<&str> = inside.take_while(|line| line.trim() != "// end").collect();
         if lines.is_empty() {
@@ -38,11 +38,12 @@ impl Sources {
         Ok(lines.collect::<Vec<_>>().join("\n"))
     }
 
-    /// Finds the file of an item, and the line that defines it; no line if it is a whole file.
+    /// Returns the file of an item and the number of the line that defines it, or no line if the
+    /// item is a whole file.
     pub fn place(&self, item: &str) -> Option<(&'static str, Option<usize>)> {
         const KINDS: [&str; 7] = ["fn", "struct", "enum", "trait", "type", "const", "mod"];
         let file = self.file(item)?;
-        let (_, text) = self.files.iter().find(|(path, _)| *path == file)?;
+        let (_, source) = self.files.iter().find(|(path, _)| *path == file)?;
         let has = |line: &str, before: &[&str], name: &str| {
             // A search is much faster than splitting into words.
             if !line.contains(name) || line.trim_start().starts_with("//") {
@@ -54,13 +55,14 @@ impl Sources {
         };
         let mut names = item.rsplit("::");
         let (name, owner) = (names.next()?, names.next().unwrap_or_default());
-        let inside = text.lines().position(|line| has(line, &["impl", "for"], owner)).unwrap_or(0);
-        let line = text.lines().skip(inside).position(|line| has(line, &KINDS, name));
+        let inside =
+            source.lines().position(|line| has(line, &["impl", "for"], owner)).unwrap_or(0);
+        let line = source.lines().skip(inside).position(|line| has(line, &KINDS, name));
         Some((file, line.map(|line| inside + line + 1)))
     }
 
-    /// Finds the file of an item or a module by its path: `crates/circuits/src/jump.rs` for
-    /// `impact_circuits::jump::p_jump`. None if the program has no such file.
+    /// Returns the file of an item or a module by its path, `crates/circuits/src/jump.rs` for
+    /// `impact_circuits::jump::p_jump`, or `None` if the program has no such file.
     pub fn file(&self, item: &str) -> Option<&'static str> {
         let inside =
             |(name, folder): &(&str, &'static str)| Some((*folder, item.strip_prefix(name)?));
@@ -68,13 +70,13 @@ impl Sources {
         let mut parts: Vec<&str> = rest.split("::").filter(|part| !part.is_empty()).collect();
         loop {
             let module = format!("{folder}/{}", parts.join("/"));
-            let is = |path: &str| match path.strip_prefix(&module) {
+            let is_module = |path: &str| match path.strip_prefix(&module) {
                 Some(".rs" | "/mod.rs") => true,
                 Some("lib.rs" | "main.rs") => parts.is_empty(),
                 _ => false,
             };
             let mut files = self.files.iter();
-            if let Some((path, _)) = files.find(|(path, _)| is(path)) {
+            if let Some((path, _)) = files.find(|(path, _)| is_module(path)) {
                 return Some(path);
             }
             parts.pop()?;

@@ -119,9 +119,9 @@ pub struct Written(pub(crate) &'static str);
 impl Written {
     pub(crate) fn new(text: &str) -> Written {
         static ALL: Mutex<BTreeSet<&'static str>> = Mutex::new(BTreeSet::new());
-        let mut all = ALL.lock().unwrap_or_else(PoisonError::into_inner);
-        let known = all.get(text).copied().unwrap_or_else(|| Box::leak(text.into()));
-        all.insert(known);
+        let mut written = ALL.lock().unwrap_or_else(PoisonError::into_inner);
+        let known = written.get(text).copied().unwrap_or_else(|| Box::leak(text.into()));
+        written.insert(known);
         Written(known)
     }
 }
@@ -186,8 +186,8 @@ impl Value {
         Value::new(id, Number::Real { value, digits }, Provenance::Deterministic)
     }
 
-    pub fn text(id: impl Into<String>, text: impl Into<String>) -> Self {
-        Value::new(id, Number::Text(text.into()), Provenance::Exact)
+    pub fn words(id: impl Into<String>, words: impl Into<String>) -> Self {
+        Value::new(id, Number::Text(words.into()), Provenance::Exact)
     }
 
     /// Makes a number as somebody printed it, with its decimals, at a place of a paper.
@@ -210,7 +210,23 @@ impl Value {
         self
     }
 
-    /// Returns its standard error, zero where it has none.
+    /// Returns its number as a double, or `None` if it has no number.
+    pub fn as_f64(&self) -> Option<f64> {
+        match self.number {
+            Number::Integer(n) => Some(n as f64),
+            Number::Real { value, .. } => Some(value),
+            Number::None | Number::Text(_) => None,
+        }
+    }
+
+    /// Returns its number with the standard error, which is half of the interval, or `None` if it
+    /// has no number.
+    pub fn estimate(&self) -> Option<Estimate> {
+        let (value, error) = (self.as_f64()?, self.standard_error());
+        Some(Estimate { value, error, interval: [value - error, value + error] })
+    }
+
+    /// Returns its standard error, which is zero if it has no error.
     pub fn standard_error(&self) -> f64 {
         match self.kind {
             Provenance::Ensemble { standard_error, .. } => standard_error,
@@ -234,7 +250,7 @@ pub fn origin<F>(_: F) -> Origin {
     origin_of::<F>()
 }
 
-/// Returns the same for a function that is known by its type.
+/// Returns the [`origin`] of what a function computes that is given by its type.
 pub fn origin_of<F>() -> Origin {
     // A closure counts as the function in which it stands.
     let path = std::any::type_name::<F>().replace("::{{closure}}", "");

@@ -125,8 +125,8 @@ impl Toy {
         program.args(line.split(' ')).current_dir(self.folder.path().join("toy"));
         program.env_remove("LITERATE_PROJECT");
         let output = program.output().unwrap();
-        let text = [output.stdout, output.stderr].concat();
-        (output.status.code().unwrap(), String::from_utf8(text).unwrap())
+        let printed = [output.stdout, output.stderr].concat();
+        (output.status.code().unwrap(), String::from_utf8(printed).unwrap())
     }
 
     fn report(&self) -> String {
@@ -168,23 +168,26 @@ fn a_result_is_stale_as_soon_as_what_made_it_has_changed() {
     // Before it is built again, a program older than its code computes and judges nothing.
     toy.write("phys/src/lib.rs", "pub const G: f64 = 16.0;\n");
     for line in ["paper", "paper --dry-run", "run", "check", "verify", "verify --rerun"] {
-        let (code, text) = toy.run(line);
-        assert_eq!(code, 2, "{line}: {text}");
-        assert!(text.contains("../phys/src/lib.rs has changed since"), "{line}: {text}");
-        assert!(text.contains("run `cargo build`"), "{line}: {text}");
+        let (code, printed) = toy.run(line);
+        assert_eq!(code, 2, "{line}: {printed}");
+        assert!(printed.contains("../phys/src/lib.rs has changed since"), "{line}: {printed}");
+        assert!(printed.contains("run `cargo build`"), "{line}: {printed}");
     }
     toy.build(&[]);
-    let (code, text) = toy.run("paper --dry-run");
-    assert!(code == 1 && text.contains("sum: run again, ../phys/src/lib.rs changed"), "{text}");
+    let (code, printed) = toy.run("paper --dry-run");
+    assert!(
+        code == 1 && printed.contains("sum: run again, ../phys/src/lib.rs changed"),
+        "{printed}"
+    );
 
     // A figure is drawn into the report only if nothing else there is stale.
-    let (code, text) = toy.run("paper --figure line");
-    assert!(code == 0 && text.contains("target/figures: "), "{text}");
+    let (code, printed) = toy.run("paper --figure line");
+    assert!(code == 0 && printed.contains("target/figures: "), "{printed}");
     assert!(toy.report().contains("The sum is 15."));
     assert_eq!(toy.run("paper").0, 0);
     assert!(toy.report().contains("The sum is 30."), "{}", toy.report());
-    let (code, text) = toy.run("paper --figure line");
-    assert!(code == 0 && text.contains("paper: 2 files"), "{text}");
+    let (code, printed) = toy.run("paper --figure line");
+    assert!(code == 0 && printed.contains("paper: 2 files"), "{printed}");
 
     // So is a report whose prose has changed since.
     toy.write(
@@ -192,19 +195,22 @@ fn a_result_is_stale_as_soon_as_what_made_it_has_changed() {
         "# Sum\n\nIt is «sum.all.value».\n\n![A line](figures/line.svg)\n",
     );
     for (line, code) in [("paper --dry-run", 1), ("verify", 1), ("check", 1)] {
-        let (exit, text) = toy.run(line);
-        assert!(exit == code && text.contains("not as prose, published numbers"), "{line}: {text}");
+        let (exit, printed) = toy.run(line);
+        assert!(
+            exit == code && printed.contains("not as prose, published numbers"),
+            "{line}: {printed}"
+        );
     }
 
     toy.build(&["--features=heavy"]);
-    let (code, text) = toy.run("paper --dry-run");
-    assert!(code == 1 && text.contains("feature heavy changed"), "{text}");
+    let (code, printed) = toy.run("paper --dry-run");
+    assert!(code == 1 && printed.contains("feature heavy changed"), "{printed}");
 
     // A variable that code takes when it is compiled.
     assert_eq!(toy.run("paper").0, 0);
     toy.build_with(&["--features=heavy"], &[("TOY_TAKEN", "64")]);
-    let (code, text) = toy.run("paper --dry-run");
-    assert!(code == 1 && text.contains("TOY_TAKEN when compiled changed"), "{text}");
+    let (code, printed) = toy.run("paper --dry-run");
+    assert!(code == 1 && printed.contains("TOY_TAKEN when compiled changed"), "{printed}");
 
     // A file that is put back with its old time, which cargo does not see.
     let old = toy.folder.path().join("old.rs");
@@ -214,8 +220,8 @@ fn a_result_is_stale_as_soon_as_what_made_it_has_changed() {
     let before = fs::metadata(&path).unwrap().modified().unwrap() - hour;
     fs::File::options().write(true).open(&old).unwrap().set_modified(before).unwrap();
     fs::rename(&old, &path).unwrap();
-    let (code, text) = toy.run("paper");
-    assert!(code == 2 && text.contains("is not what this program was built from"), "{text}");
+    let (code, printed) = toy.run("paper");
+    assert!(code == 2 && printed.contains("is not what this program was built from"), "{printed}");
 
     // A copy without the list of cargo is known by its bytes.
     let copy = toy.folder.path().join("copy");
@@ -224,6 +230,6 @@ fn a_result_is_stale_as_soon_as_what_made_it_has_changed() {
         .args(["paper", "--dry-run"])
         .current_dir(toy.folder.path().join("toy"))
         .output();
-    let text = String::from_utf8(output.unwrap().stdout).unwrap();
-    assert!(text.contains("sum: run again, "), "{text}");
+    let printed = String::from_utf8(output.unwrap().stdout).unwrap();
+    assert!(printed.contains("sum: run again, "), "{printed}");
 }

@@ -50,7 +50,7 @@ fn the_second_paper_is_made_and_its_run_is_used_again() {
 
     // To the digits that the literature has: 4.669 201 609 102… and 2.502 907 875 095….
     let cascade = feigenbaum::CASCADE
-        .found(&feigenbaum::CASCADE.identity(&session).unwrap(), &session)
+        .read_or_run(&feigenbaum::CASCADE.identity(&session).unwrap(), &session)
         .unwrap();
     let tables = AnyExperiment::tables(&feigenbaum::CASCADE, &cascade);
     let limit = |column: &str| tables[1].distinct(column).unwrap()[0];
@@ -111,19 +111,21 @@ fn the_advice_of_verify_works_as_it_is_printed() {
     assert_eq!(made("paper").0, 0);
     // A saved result that is wrong, and looks fresh.
     let saved = folder.path().join("target/results/cascade-full.json");
-    let text = std::fs::read_to_string(&saved).unwrap();
-    let [_, made_of, body, ""] = text.split('\n').collect::<Vec<_>>()[..] else { panic!("{text}") };
+    let saved_result = std::fs::read_to_string(&saved).unwrap();
+    let [_, made_of, body, ""] = saved_result.split('\n').collect::<Vec<_>>()[..] else {
+        panic!("{saved_result}")
+    };
     let made_of = format!("{made_of}\n{}\n", body.replacen("3.2", "3.3", 1));
     std::fs::write(&saved, format!("{}\n{made_of}", sha256(&made_of))).unwrap();
     assert_eq!(made("paper").0, 0);
-    let (code, out, note) = made("verify --rerun");
-    assert!(code == 1 && out.contains("rerun: "), "{out}{note}");
+    let (code, output, note) = made("verify --rerun");
+    assert!(code == 1 && output.contains("rerun: "), "{output}{note}");
     let advice = "paper --force --rerun all";
     assert!(note.contains(advice), "{note}");
     let (code, _, note) = made(advice);
     assert_eq!(code, 0, "{note}");
-    let (code, out, note) = made("verify --rerun");
-    assert_eq!(code, 0, "{out}{note}");
+    let (code, output, note) = made("verify --rerun");
+    assert_eq!(code, 0, "{output}{note}");
     let (code, _, note) = made("paper --rerun cascade");
     assert!(code == 0 && note.contains("cascade: run\n"), "{note}");
     let (code, _, note) = made("paper --rerun cascades");

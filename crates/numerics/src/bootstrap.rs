@@ -1,13 +1,13 @@
 //! Computes bootstrap intervals, with a separate random stream and in a fixed order.
 
-use super::random::generator;
+use super::random::{Seed, generator};
 use super::statistics::{Estimate, quantile, standard_deviation};
 use rand::Rng;
 
 /// Draws how often each of `size` members is drawn, with replacement, in resample `index`. Equal
 /// (seed, index, size) give equal weights: one index resamples several quantities jointly.
 pub fn weights(seed: u64, index: u64, size: usize) -> Vec<u32> {
-    let mut random = generator("bootstrap", seed, index);
+    let mut random = generator("bootstrap", Seed(seed), index);
     let mut weights = vec![0; size];
     for _ in 0..size {
         // Multiply and shift: unbiased to 2^−64 · size, and the same on every machine.
@@ -17,7 +17,8 @@ pub fn weights(seed: u64, index: u64, size: usize) -> Vec<u32> {
     weights
 }
 
-/// Counts each count in a resample, by weights; `histogram` is longer than the largest count.
+/// Counts how often each count occurs in a resample, in which each member has the given weight;
+/// `histogram` is longer than the largest count.
 pub fn histogram(counts: &[Option<u32>], weights: &[u32], histogram: &mut [u32]) {
     histogram.fill(0);
     for (&count, &weight) in counts.iter().zip(weights) {
@@ -40,7 +41,8 @@ pub fn total(histogram: &[u32]) -> [u64; 2] {
 /// Share of resamples without a value above which there is no interval.
 const MISSING: f64 = 0.01;
 
-/// Returns the percentile interval around an estimate; none without it or if over 1 % fail.
+/// Returns an estimate with the percentile interval of its resamples, or `None` if it has no value
+/// or more than 1 % of the resamples have none.
 pub fn estimate(value: Option<f64>, resampled: &[Option<f64>], level: f64) -> Option<Estimate> {
     let value = value?;
     let mut present: Vec<f64> = resampled.iter().copied().flatten().collect();
@@ -57,17 +59,17 @@ pub fn estimate(value: Option<f64>, resampled: &[Option<f64>], level: f64) -> Op
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::random::NormalPairs;
+    use crate::random::{NormalPairs, Seed};
 
     #[test]
     fn an_interval_has_its_tails_outside() {
         // 0 to 1000 have the variance n (n + 1)/12, n = 1001.
         let resampled: Vec<Option<f64>> = (0..=1000).rev().map(|i| Some(f64::from(i))).collect();
-        let found = estimate(Some(7.0), &resampled, 0.95).unwrap();
-        assert_eq!(found.value, 7.0);
-        assert!((found.error - (1001.0 * 1002.0 / 12.0_f64).sqrt()).abs() < 1e-9);
-        assert!((found.interval[0] - 25.0).abs() < 1e-9, "{found:?}");
-        assert!((found.interval[1] - 975.0).abs() < 1e-9, "{found:?}");
+        let mean = estimate(Some(7.0), &resampled, 0.95).unwrap();
+        assert_eq!(mean.value, 7.0);
+        assert!((mean.error - (1001.0 * 1002.0 / 12.0_f64).sqrt()).abs() < 1e-9);
+        assert!((mean.interval[0] - 25.0).abs() < 1e-9, "{mean:?}");
+        assert!((mean.interval[1] - 975.0).abs() < 1e-9, "{mean:?}");
     }
 
     /// The mean of 40 normals lies beyond either end in 2.5 % of samples, a little more as the
@@ -76,7 +78,7 @@ mod tests {
     fn intervals_cover_as_promised() {
         let [mut below, mut above] = [0; 2];
         for index in 0..1000 {
-            let mut normals = NormalPairs::new("coverage", 1, index);
+            let mut normals = NormalPairs::new("coverage", Seed(1), index);
             let sample: Vec<f64> = (0..20).flat_map(|_| normals.pair()).collect();
             let resample = |number| {
                 let weights = weights(index, number, 40);
@@ -95,14 +97,14 @@ mod tests {
         let mut counts = [9; 4];
         histogram(&[Some(3), None, Some(1), Some(3)], &[2, 5, 1, 4], &mut counts);
         assert_eq!((counts, total(&counts)), ([0, 1, 0, 6], [7, 19]));
-        let all: Vec<Vec<u32>> = (0..1000).map(|index| weights(1, index, 8)).collect();
-        assert!(all.iter().all(|weights| weights.iter().sum::<u32>() == 8));
+        let resamples: Vec<Vec<u32>> = (0..1000).map(|index| weights(1, index, 8)).collect();
+        assert!(resamples.iter().all(|weights| weights.iter().sum::<u32>() == 8));
         // Each member is drawn once on average: a deviation of 30 in 1000.
         for member in 0..8 {
-            let drawn: u32 = all.iter().map(|weights| weights[member]).sum();
+            let drawn: u32 = resamples.iter().map(|weights| weights[member]).sum();
             assert!(drawn.abs_diff(1000) < 120, "{member}: {drawn}");
         }
-        assert!(all[0] != all[1] && all[0] != weights(2, 0, 8));
+        assert!(resamples[0] != resamples[1] && resamples[0] != weights(2, 0, 8));
     }
 
     #[test]

@@ -10,12 +10,12 @@ pub fn with_error(value: f64, error: f64) -> Estimate {
     Estimate { value, error, interval: [value - half, value + half] }
 }
 
-/// Returns the mean of a sample; none of fewer than two values.
+/// Returns the mean of a sample with its error, or `None` below two values.
 pub fn average(sample: &[f64]) -> Option<Estimate> {
     Some(with_error(mean(sample)?, standard_error(sample)?))
 }
 
-/// Returns the share `part`/`whole` with its binomial error; none if `whole` is 0.
+/// Returns the share `part`/`whole` with its binomial error, or `None` if `whole` is 0.
 pub fn share(part: u64, whole: u64) -> Option<Estimate> {
     let (p, n) = (part as f64 / whole as f64, whole as f64);
     (whole > 0).then(|| with_error(p, (p * (1.0 - p) / n).sqrt()))
@@ -27,22 +27,24 @@ pub fn difference(a: Estimate, b: Estimate) -> Estimate {
 }
 
 /// Returns `statistic` of all realisations, with the jackknife error from its values without each
-/// (its argument). None if one of these does not exist, or with fewer than two realisations.
+/// realisation in turn (its argument), or `None` if one of these values does not exist or there are
+/// fewer than two realisations.
 pub fn jackknife(
     realisations: usize,
     statistic: impl Fn(Option<usize>) -> Option<f64>,
 ) -> Option<Estimate> {
-    let without: Option<Vec<f64>> = (0..realisations).map(|out| statistic(Some(out))).collect();
+    let without: Option<Vec<f64>> = (0..realisations).map(|i| statistic(Some(i))).collect();
     let error = standard_error(&without?)? * (realisations as f64 - 1.0);
     Some(with_error(statistic(None)?, error))
 }
 
-/// Returns the ratio of two sums over realisations, with its jackknife error.
+/// Returns the ratio of two sums over realisations with its jackknife error, or `None` if the
+/// second sum is not positive without each of them.
 pub fn ratio(pairs: &[[f64; 2]]) -> Option<Estimate> {
     let sum = |place: usize| pairs.iter().map(|pair| pair[place]).sum::<f64>();
     let [above, below] = [sum(0), sum(1)];
-    jackknife(pairs.len(), |out| {
-        let [a, b] = out.map_or([0.0; 2], |out| pairs[out]);
+    jackknife(pairs.len(), |left_out| {
+        let [a, b] = left_out.map_or([0.0; 2], |i| pairs[i]);
         (below - b > 0.0).then(|| (above - a) / (below - b))
     })
 }
@@ -50,13 +52,13 @@ pub fn ratio(pairs: &[[f64; 2]]) -> Option<Estimate> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::random::NormalPairs;
+    use crate::random::{NormalPairs, Seed};
 
-    /// Whether the numbers are those to nine digits.
-    fn near(found: Estimate, [value, error]: [f64; 2]) -> bool {
+    /// Whether an estimate has this value and error, and their normal interval, to nine digits.
+    fn near(estimate: Estimate, [value, error]: [f64; 2]) -> bool {
         let half = 1.959_963_985 * error;
-        let [low, high] = found.interval;
-        [found.value - value, found.error - error, low - value + half, high - value - half]
+        let [low, high] = estimate.interval;
+        [estimate.value - value, estimate.error - error, low - value + half, high - value - half]
             .iter()
             .all(|off| off.abs() < 1e-9)
     }
@@ -71,8 +73,8 @@ mod tests {
         assert_eq!(share(0, 0), None);
         assert!(near(difference(with_error(9.0, 3.0), with_error(2.0, 4.0)), [7.0, 5.0]));
         // Without each: 5/3, 1 and 2, whose deviations from 14/9 are 1, −5 and 4 ninths.
-        let found = ratio(&[[1.0, 1.0], [3.0, 1.0], [2.0, 2.0]]).unwrap();
-        assert!(near(found, [1.5, 28.0_f64.sqrt() / 9.0]), "{found:?}");
+        let quotient = ratio(&[[1.0, 1.0], [3.0, 1.0], [2.0, 2.0]]).unwrap();
+        assert!(near(quotient, [1.5, 28.0_f64.sqrt() / 9.0]), "{quotient:?}");
     }
 
     /// Student's t with 49 degrees of freedom is within 1.96 with a probability of 0.944: 944 of
@@ -80,7 +82,7 @@ mod tests {
     #[test]
     fn intervals_of_means_cover_as_promised() {
         let covers = |index: &u64| {
-            let mut normals = NormalPairs::new("coverage", 2, *index);
+            let mut normals = NormalPairs::new("coverage", Seed(2), *index);
             let sample: Vec<f64> = (0..25).flat_map(|_| normals.pair()).collect();
             let [low, high] = average(&sample).unwrap().interval;
             low < 0.0 && high > 0.0
@@ -98,7 +100,7 @@ mod tests {
         assert_eq!((same.value, same.error), (0.5, 0.0));
         // Means of two of {1, 2, 3}.
         let means = [2.5, 2.0, 1.5];
-        let found = jackknife(3, |out| Some(out.map_or(2.0, |out| means[out]))).unwrap();
-        assert!((found.error - (1.0_f64 / 3.0).sqrt()).abs() < 1e-15);
+        let mean = jackknife(3, |left_out| Some(left_out.map_or(2.0, |i| means[i]))).unwrap();
+        assert!((mean.error - (1.0_f64 / 3.0).sqrt()).abs() < 1e-15);
     }
 }

@@ -27,6 +27,7 @@ impl GaussLegendre {
         GaussLegendre { nodes, weights }
     }
 
+    /// Returns the integral of `f` over [a, b].
     pub fn integrate(&self, a: f64, b: f64, f: impl Fn(f64) -> f64) -> f64 {
         let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
         let terms = self.nodes.iter().zip(&self.weights).map(|(x, w)| w * f(middle + half * x));
@@ -70,7 +71,7 @@ mod tests {
         // x⁵ over [1, 3] is exact, and x⁴ in four panels of the rule of one point by hand.
         assert!((rule.integrate(1.0, 3.0, |x| x.powi(5)) - 728.0 / 6.0).abs() < 1e-12);
         let middles = [1.25, 1.75, 2.25, 2.75_f64].map(|x| 0.5 * x.powi(4)).iter().sum::<f64>();
-        let found = GaussLegendre::new(1).integrate_panels(1.0, 3.0, 4, |x| x.powi(4));
-        assert!((found - middles).abs() < 1e-13, "{found} {middles}");
+        let integral = GaussLegendre::new(1).integrate_panels(1.0, 3.0, 4, |x| x.powi(4));
+        assert!((integral - middles).abs() < 1e-13, "{integral} {middles}");
     }
 }

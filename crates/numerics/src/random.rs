@@ -11,8 +11,12 @@ use sha2::{Digest, Sha256};
 #[derive(Clone, Debug)]
 pub struct NormalPairs(Pcg64Dxsm);
 
-/// Creates the generator behind every random choice: stream `index` of `experiment` under `seed`.
-pub fn generator(experiment: &str, seed: u64, index: u64) -> Pcg64Dxsm {
+/// The number from which all random choices of an experiment follow, with its name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Seed(pub u64);
+
+/// Creates the generator behind every random choice: stream `index` of `experiment` under a seed.
+pub fn generator(experiment: &str, Seed(seed): Seed, index: u64) -> Pcg64Dxsm {
     let mut hash = Sha256::new();
     hash.update(seed.to_le_bytes());
     hash.update(experiment.as_bytes());
@@ -23,10 +27,12 @@ pub fn generator(experiment: &str, seed: u64, index: u64) -> Pcg64Dxsm {
 }
 
 impl NormalPairs {
-    pub fn new(experiment: &str, seed: u64, realisation: u64) -> Self {
+    /// Creates the stream of one realisation of an experiment under a master seed.
+    pub fn new(experiment: &str, seed: Seed, realisation: u64) -> Self {
         NormalPairs(generator(experiment, seed, realisation))
     }
 
+    /// Draws the next pair.
     pub fn pair(&mut self) -> [f64; 2] {
         loop {
             let [x, y]: [f64; 2] = UnitDisc.sample(&mut self.0);
@@ -47,7 +53,7 @@ mod tests {
     /// other keys.
     #[test]
     fn pairs_are_independent_standard_normals() {
-        let mut normals = NormalPairs::new("moments", 1, 0);
+        let mut normals = NormalPairs::new("moments", Seed(1), 0);
         let mut sums = [0.0; 4];
         for _ in 0..100_000 {
             let [x, y] = normals.pair();
@@ -62,7 +68,8 @@ mod tests {
             assert!((sum - wanted).abs() < 4.0 * (variance / 1e5).sqrt(), "{sums:?}");
         }
         let keys = [("a", 1, 0), ("a", 2, 0), ("a", 1, 1), ("b", 1, 0)];
-        let firsts = keys.map(|(name, seed, index)| NormalPairs::new(name, seed, index).pair());
+        let firsts =
+            keys.map(|(name, seed, index)| NormalPairs::new(name, Seed(seed), index).pair());
         for i in 1..4 {
             assert!(firsts[..i].iter().all(|first| *first != firsts[i]), "{firsts:?}");
         }

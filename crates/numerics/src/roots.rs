@@ -37,13 +37,13 @@ pub fn crossing([low, high]: [f64; 2], tolerance: f64, mut f: impl FnMut(f64) ->
             return middle;
         }
         last = middle;
-        let found = f(middle);
-        let again = rose.replace(found < 0.0) == Some(found < 0.0);
+        let value = f(middle);
+        let again = rose.replace(value < 0.0) == Some(value < 0.0);
         let other = if again { 0.5 } else { 1.0 };
-        if found < 0.0 {
-            (low, below, above) = (middle, found, other * above);
+        if value < 0.0 {
+            (low, below, above) = (middle, value, other * above);
         } else {
-            (high, above, below) = (middle, found, other * below);
+            (high, above, below) = (middle, value, other * below);
         }
     }
     last

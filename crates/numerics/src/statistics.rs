@@ -15,24 +15,26 @@ pub struct Estimate {
     pub interval: [f64; 2],
 }
 
-/// Returns the mean; none of an empty sample.
+/// Returns the mean, or `None` if the sample is empty.
 pub fn mean(sample: &[f64]) -> Option<f64> {
     (!sample.is_empty()).then(|| sample.iter().sum::<f64>() / sample.len() as f64)
 }
 
-/// Returns the standard deviation with n − 1 degrees of freedom; none below two values.
+/// Returns the standard deviation with n − 1 degrees of freedom, or `None` below two
+/// values.
 pub fn standard_deviation(sample: &[f64]) -> Option<f64> {
     let centre = mean(sample)?;
     let squares: f64 = sample.iter().map(|x| (x - centre) * (x - centre)).sum();
     (sample.len() > 1).then(|| (squares / (sample.len() - 1) as f64).sqrt())
 }
 
-/// Returns the standard error of the mean; none below two values.
+/// Returns the standard error of the mean, or `None` below two values.
 pub fn standard_error(sample: &[f64]) -> Option<f64> {
     Some(standard_deviation(sample)? / (sample.len() as f64).sqrt())
 }
 
-/// Returns the quantile of a sorted sample, linear between its numbers (Hyndman and Fan's type 7).
+/// Returns the quantile of a sorted sample, linear between its numbers (Hyndman and Fan's type 7),
+/// or `None` if the sample is empty.
 pub fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
     let last = sorted.len().checked_sub(1)?;
     let place = share.clamp(0.0, 1.0) * last as f64;
@@ -42,7 +44,8 @@ pub fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
     Some(sorted[below] + rest * (sorted[above] - sorted[below]))
 }
 
-/// Returns the smallest k with at least `share` of a histogram at or below it.
+/// Returns the smallest k with at least `share` of a histogram at or below it, or `None` if the
+/// histogram is empty.
 pub fn count_quantile(histogram: &[u32], share: f64) -> Option<usize> {
     let total: u64 = histogram.iter().copied().map(u64::from).sum();
     let mut below = 0;
@@ -52,7 +55,8 @@ pub fn count_quantile(histogram: &[u32], share: f64) -> Option<usize> {
     })
 }
 
-/// Returns the most frequent number of a histogram, the lowest of several; none if it is empty.
+/// Returns the most frequent number of a histogram, the lowest of several, or `None` if it is
+/// empty.
 pub fn mode(histogram: &[u32]) -> Option<usize> {
     let most = *histogram.iter().max()?;
     (most > 0).then(|| histogram.iter().position(|&count| count == most))?
@@ -65,13 +69,14 @@ pub fn normal_quantile(level: f64) -> f64 {
     (z * 1e9).round() / 1e9
 }
 
-/// Returns the same of Student's t, with some degrees of freedom; none below one degree.
+/// Returns the two-sided quantile of Student's t with `freedom` degrees of freedom, rounded like
+/// the normal one, or `None` below one degree.
 pub fn student_quantile(level: f64, freedom: usize) -> Option<f64> {
     let t = StudentsT::new(0.0, 1.0, freedom as f64).ok()?.inverse_cdf(0.5 + 0.5 * level);
     Some((t * 1e9).round() / 1e9)
 }
 
-/// Returns Wilson's interval of a proportion; none without trials.
+/// Returns Wilson's interval of a proportion, or `None` without trials.
 pub fn wilson(successes: u64, trials: u64, level: f64) -> Option<[f64; 2]> {
     let (z, n) = (normal_quantile(level), trials as f64);
     let share = successes as f64 / n;
@@ -83,7 +88,7 @@ pub fn wilson(successes: u64, trials: u64, level: f64) -> Option<[f64; 2]> {
     (trials > 0).then_some([low, high])
 }
 
-/// Returns the exact interval of a proportion, of Clopper and Pearson; none without trials.
+/// Returns the exact interval of a proportion by Clopper and Pearson, or `None` without trials.
 pub fn clopper_pearson(successes: u64, trials: u64, level: f64) -> Option<[f64; 2]> {
     let (s, n, tail) = (successes as f64, trials as f64, 0.5 - 0.5 * level);
     let end = |p: f64| (p * 1e9).round() / 1e9;
@@ -94,8 +99,9 @@ pub fn clopper_pearson(successes: u64, trials: u64, level: f64) -> Option<[f64; 
     (trials > 0).then_some([low, high])
 }
 
-/// Finds where y(x) rises to `level` for good, linear between the points that have a value: from
-/// there on none is below it. None if y ends below the level or never lies below it.
+/// Returns the x at which y(x) passes `level` for the last time, linear between the points that
+/// have a value: no later point is below it. `None` if y ends below the level or never lies below
+/// it.
 pub fn last_rise(x: &[f64], y: &[Option<f64>], level: f64) -> Option<f64> {
     let points: Vec<(f64, f64)> = x.iter().zip(y).filter_map(|(&x, &y)| Some((x, y?))).collect();
     let below = points.iter().rposition(|&(_, y)| y < level)?;
@@ -103,7 +109,7 @@ pub fn last_rise(x: &[f64], y: &[Option<f64>], level: f64) -> Option<f64> {
     Some(x0 + (x1 - x0) * (level - y0) / (y1 - y0))
 }
 
-/// Returns the slope of the least-squares line through (x, y); none below two different x.
+/// Returns the slope of the least-squares line through (x, y), or `None` below two different x.
 pub fn slope(points: &[(f64, f64)]) -> Option<f64> {
     let total = points.len() as f64;
     let centre = points.iter().map(|&(x, _)| x).sum::<f64>() / total;
@@ -141,8 +147,8 @@ mod tests {
         assert_eq!((mean(&sample), mean(&[]), standard_deviation(&[1.0])), (Some(5.0), None, None));
         assert_eq!([mode(&[1, 3, 0, 3]), mode(&[0, 0]), mode(&[])], [Some(1), None, None]);
         // 39/9 over 42/9.
-        let slope_found = slope(&[(1.0, 2.0), (2.0, 4.0), (4.0, 5.0)]).unwrap();
-        assert!((slope_found - 13.0 / 14.0).abs() < 1e-15, "{slope_found}");
+        let fitted = slope(&[(1.0, 2.0), (2.0, 4.0), (4.0, 5.0)]).unwrap();
+        assert!((fitted - 13.0 / 14.0).abs() < 1e-15, "{fitted}");
         assert_eq!([slope(&[(1.0, 2.0)]), slope(&[(1.0, 2.0), (1.0, 3.0)])], [None; 2]);
     }
 
@@ -172,8 +178,8 @@ mod tests {
             (10, 10, 0.95, [0.6915, 1.0]),
             (0, 100, 0.99, [0.0, 1.0 - 0.005_f64.powf(0.01)]),
         ] {
-            let found = clopper_pearson(s, n, level).unwrap();
-            assert!((0..2).all(|i| (found[i] - printed[i]).abs() < 5.1e-5), "{found:?}");
+            let ends = clopper_pearson(s, n, level).unwrap();
+            assert!((0..2).all(|i| (ends[i] - printed[i]).abs() < 5.1e-5), "{ends:?}");
         }
         assert_eq!(clopper_pearson(0, 0, 0.95), None);
     }

@@ -47,8 +47,8 @@ fn roots_products_and_conversions_keep_all_digits() {
         assert!(share(x * 0.3, exact(x) * big(0.3)).abs() < 1e-31, "{x:?}");
         // What is in `lo` shows in the exponential where it is large.
         let large = DoubleDouble { hi: 7.0 * x.hi, lo: 3e-15 };
-        let found = DoubleDouble::from(large.exp());
-        assert!(share(found, exact(large).exp()).abs() < 3e-16, "{large:?}");
+        let power = DoubleDouble::from(large.exp());
+        assert!(share(power, exact(large).exp()).abs() < 3e-16, "{large:?}");
     }
     assert_eq!(DoubleDouble::from(-1.0).sqrt(), DoubleDouble::ZERO);
     let ends = [-1e4, 1e4].map(|hi| DoubleDouble { hi, lo: f64::NAN }.exp());

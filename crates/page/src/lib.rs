@@ -7,7 +7,9 @@
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 #![deny(unsafe_op_in_unsafe_fn)]
 
-use impact_chain::{Boundary, Chain, End, Engine, Event, Impact, NormalPairs, Scenario, Start};
+use impact_chain::{
+    Boundary, Chain, End, Engine, Event, Impact, NormalPairs, Scenario, Seed, Start,
+};
 use impact_circuits::distribution::{Law, SampleSpace};
 use impact_circuits::impact_probability::ImpactProbability;
 use impact_circuits::jump;
@@ -48,7 +50,7 @@ impl Page {
     fn open(&mut self) -> Result<(), String> {
         self.run = None;
         let stream = String::from_utf8_lossy(&self.text);
-        let ([transient, window], scenario) = request(&self.numbers, &stream)?;
+        let ([transient, window], scenario) = read_request(&self.numbers, &stream)?;
         let until = transient + window;
         let engine = Engine::new(&scenario).map_err(|error| error.to_string())?;
         let gaps = scenario.gaps();
@@ -96,7 +98,7 @@ impl Page {
 /// Reads T, W and a scenario from numbers in this order: T, W, the chain (n, d, ω, Ω, r, 1 for a
 /// ring, start 0 rest, 1 zero or 2 random), then σ, seed and realisation of the stream that the
 /// text names; without one, α and β of each mass.
-fn request(numbers: &[f64], stream: &str) -> Result<([f64; 2], Scenario), String> {
+fn read_request(numbers: &[f64], stream: &str) -> Result<([f64; 2], Scenario), String> {
     let [transient, window, n, spacing, natural, forcing, restitution, ring, start, rest @ ..] =
         numbers
     else {
@@ -121,7 +123,7 @@ fn request(numbers: &[f64], stream: &str) -> Result<([f64; 2], Scenario), String
             Scenario::given(&chain, pairs).map_err(|error| error.to_string())?
         }
         ([sigma, seed, realisation], _) => {
-            let mut normals = NormalPairs::new(stream, *seed as u64, *realisation as u64);
+            let mut normals = NormalPairs::new(stream, Seed(*seed as u64), *realisation as u64);
             Scenario::draw(&chain, *sigma, &mut normals)
         }
         _ => return Err("a stream has sigma, seed and realisation".into()),
@@ -132,9 +134,9 @@ fn request(numbers: &[f64], stream: &str) -> Result<([f64; 2], Scenario), String
 /// Runs `work` on the page: 1 or 0 for its result, or 2 with the refusal as the text.
 fn answer(work: impl FnOnce(&mut Page) -> Result<bool, String>) -> u32 {
     PAGE.with_borrow_mut(|page| match work(page) {
-        Ok(on) => u32::from(on),
-        Err(refused) => {
-            page.text = refused.into_bytes();
+        Ok(may_go_on) => u32::from(may_go_on),
+        Err(message) => {
+            page.text = message.into_bytes();
             2
         }
     })
@@ -171,7 +173,7 @@ pub extern "C" fn follow(time: f64) -> u32 {
         let engine = &mut page.run.as_mut().ok_or("nothing is open")?.engine;
         let message = |error: impact_chain::Error| error.to_string();
         let impacts = engine.impacts(time).map_err(message)?;
-        page.numbers = engine.positions(time).map_err(message)?;
+        page.numbers = engine.state(time).map_err(message)?.positions;
         page.numbers.push(impacts.len() as f64);
         page.numbers.extend(impacts.iter().map(|impact| impact.gap as f64));
         Ok(false)
@@ -243,9 +245,9 @@ mod tests {
 
     #[test]
     fn masses_are_followed_from_impact_to_impact() {
-        let own = [50.0, 20.0, 30.0, 1.0, 1.0, 1.5, 0.8, 0.0, 0.0].into_iter();
-        let numbers: Vec<f64> = own.chain((0..60).map(|i| f64::from(i % 5) - 2.0)).collect();
-        let (_, scenario) = request(&numbers, "").unwrap();
+        let fields = [50.0, 20.0, 30.0, 1.0, 1.0, 1.5, 0.8, 0.0, 0.0].into_iter();
+        let numbers: Vec<f64> = fields.chain((0..60).map(|i| f64::from(i % 5) - 2.0)).collect();
+        let (_, scenario) = read_request(&numbers, "").unwrap();
         let impacts = Engine::new(&scenario).unwrap().impacts(50.0).unwrap();
         PAGE.set(Page { numbers, ..Page::default() });
         let after = |time: i32| {
@@ -259,8 +261,11 @@ mod tests {
     #[test]
     fn what_is_no_run_and_no_probability_is_refused() {
         let numbers = vec![50.0, 20.0, 30.0, 1.0, 1.0, 1.5, 0.8, 0.0, 0.0];
-        let none = Page { numbers, ..Page::default() }.open().unwrap_err();
-        assert!(none.starts_with("forcing: it has 0 pairs for 30 masses; give one"), "{none}");
+        let message = Page { numbers, ..Page::default() }.open().unwrap_err();
+        assert!(
+            message.starts_with("forcing: it has 0 pairs for 30 masses; give one"),
+            "{message}"
+        );
         assert_eq!([law(100, f64::NAN), law(100, 0.02)], [2, 0]);
     }
 }

@@ -1,14 +1,18 @@
 //! Offers the engine to Python: scenarios, their events and states, and ensembles, as arrays.
 
+mod arguments;
+
+use arguments::{chain_from, json_value, json_values, refused, to_python, whole_number};
 use impact_chain::{
-    Abreast, Chain, Engine, Error, ErrorKind, Event, Impact, NormalPairs, Protocol, State, Watch,
+    Abreast, Counting, Counts, Engine, Error, Event, Impact, NormalPairs, Protocol, Seed, State,
+    Watch,
 };
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{IntoPyDict, PyDict, PyList};
+use pyo3::types::{PyDict, PyList};
 use rayon::prelude::*;
-use serde_json::{Map, Value, from_str, from_value, to_value};
+use serde_json::Value;
 use std::ops::ControlFlow::{Break, Continue};
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::sync::mpsc::{RecvTimeoutError, channel};
@@ -17,16 +21,9 @@ use std::time::Duration;
 type Array<'py, T = f64> = Bound<'py, PyArray1<T>>;
 type Matrix<'py> = Bound<'py, PyArray2<f64>>;
 
-fn to_python(error: Error) -> PyErr {
-    match error.kind() {
-        ErrorKind::Work => PyRuntimeError::new_err(error.to_string()),
-        _ => PyValueError::new_err(error.to_string()),
-    }
-}
-
 /// Computes without the lock of Python, which sees Ctrl-C all the while: `compute` then finds the
 /// flag set, and what it returns is dropped.
-fn apart<T: Send>(
+fn compute_detached<T: Send>(
     py: Python<'_>,
     compute: impl FnOnce(&AtomicBool) -> Result<T, Error> + Send,
 ) -> PyResult<T> {
@@ -69,17 +66,20 @@ fn apart<T: Send>(
 ///
 /// Raises
 /// ------
-/// ValueError
+/// ValueError, TypeError
 ///     A field is not allowed; the message names it and says what to write instead.
-#[pyclass(frozen, module = "impact_chain")]
+#[pyclass(frozen, eq, module = "impact_chain")]
+#[derive(PartialEq)]
 struct Scenario(impact_chain::Scenario);
 
 #[pymethods]
 impl Scenario {
     #[new]
-    #[pyo3(signature = (**fields))]
-    fn new(py: Python<'_>, fields: Option<Bound<'_, PyDict>>) -> PyResult<Scenario> {
-        Scenario::from_json(&json_of(py, fields.as_ref())?)
+    #[pyo3(signature = (*, forcing, **fields))]
+    fn new(forcing: Bound<'_, PyAny>, fields: Option<Bound<'_, PyDict>>) -> PyResult<Scenario> {
+        let mut values = json_values(fields.as_ref())?;
+        values.insert("forcing".into(), json_value("forcing", &forcing)?);
+        Scenario::from_json(&Value::Object(values).to_string())
     }
 
     /// Reads a scenario from JSON, as `impact-paper trace` does.
@@ -97,58 +97,42 @@ impl Scenario {
     /// index, stream, seed
     ///     Of the realisation, which has the same normals at every sigma.
     /// **chain
-    ///     Fields of the chain: masses, restitution, boundary, start, …
+    ///     Fields of the chain: masses, restitution, boundary, initial ("rest", "zero" or
+    ///     "random"), …
     #[staticmethod]
     #[pyo3(signature = (sigma, index = 0, *, stream = "sweep", seed = 2007, **chain))]
     fn draw(
-        py: Python<'_>,
         sigma: f64,
-        index: u64,
+        index: i128,
         stream: &str,
-        seed: u64,
+        seed: i128,
         chain: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Scenario> {
-        let mut normals = NormalPairs::new(stream, seed, index);
-        let scenario = impact_chain::Scenario::draw(&chain_of(py, chain)?, sigma, &mut normals);
+        let (index, seed) = (whole_number("index", index)?, whole_number("seed", seed)?);
+        let mut normals = NormalPairs::new(stream, Seed(seed), index);
+        let scenario = impact_chain::Scenario::draw(&chain_from(chain)?, sigma, &mut normals);
         scenario.validate().map_err(to_python)?;
         Ok(Scenario(scenario))
     }
 
+    /// Writes the scenario as JSON in one line.
     fn to_json(&self) -> String {
         self.0.to_json()
+    }
+
+    /// Returns the fields of the scenario: `Scenario(**scenario.to_dict())` is the same.
+    fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        py.import("json")?.call_method1("loads", (self.to_json(),))
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
+        Ok((py.get_type::<Scenario>().getattr("from_json")?, (self.to_json(),)))
     }
 
     fn __repr__(&self) -> String {
         let scenario = &self.0;
         format!("<Scenario: {} masses, r = {}>", scenario.forcing.len(), scenario.restitution)
     }
-}
-
-/// Writes keywords as JSON, arrays of numpy included.
-fn json_of(py: Python<'_>, fields: Option<&Bound<'_, PyDict>>) -> PyResult<String> {
-    let Some(fields) = fields else { return Ok("{}".to_string()) };
-    let tolist = py.import("operator")?.call_method1("methodcaller", ("tolist",))?;
-    let arguments = [("default", tolist)].into_py_dict(py)?;
-    py.import("json")?.call_method("dumps", (fields,), Some(&arguments))?.extract()
-}
-
-/// Reads a chain from keywords: the fields of `Chain`.
-fn chain_of(py: Python<'_>, fields: Option<&Bound<'_, PyDict>>) -> PyResult<Chain> {
-    let refused = |name: &str, error| PyValueError::new_err(format!("{name}: {error}"));
-    let unread = |error: serde_json::Error| refused("chain", error);
-    let given: Map<String, Value> = from_str(&json_of(py, fields)?).map_err(unread)?;
-    let mut chain = Chain::default();
-    for (name, value) in given {
-        let mut fields = to_value(&chain).map_err(unread)?;
-        let Some(field) = fields.get_mut(&name) else {
-            let known = "masses, spacing, natural_frequency, forcing_frequency, restitution, \
-                         boundary, start";
-            return Err(PyValueError::new_err(format!("{name}: give one of {known}")));
-        };
-        *field = value;
-        chain = from_value(fields).map_err(|error| refused(&name, error))?;
-    }
-    Ok(chain)
 }
 
 /// A state to go on from: time, positions, velocities.
@@ -162,7 +146,12 @@ fn engine(scenario: &Scenario, start: Start, first: f64) -> PyResult<Engine> {
             Engine::from_state(&scenario.0, &State { time, positions, velocities })
         }
     };
-    let engine = engine.map_err(to_python)?;
+    let engine = engine.map_err(|error| match error.field() {
+        Some(field) if ["time", "positions", "velocities"].iter().any(|f| field.starts_with(f)) => {
+            refused("start", error)
+        }
+        _ => to_python(error),
+    })?;
     let begin = engine.time();
     if first < begin {
         let message = format!("{first:?} is before the start at t = {begin:?}; give a later time");
@@ -171,15 +160,15 @@ fn engine(scenario: &Scenario, start: Start, first: f64) -> PyResult<Engine> {
     Ok(engine)
 }
 
-/// Runs an engine to `until`, and gives all events to `take` until Ctrl-C.
+/// Runs an engine to `until`, and gives all events to `receive` until Ctrl-C.
 fn run(
     engine: &mut Engine,
     until: f64,
     stop: &AtomicBool,
-    mut take: impl FnMut(&Event),
+    mut receive: impl FnMut(&Event),
 ) -> Result<(), Error> {
     let observer = |event: &Event, _: &Engine| {
-        take(event);
+        receive(event);
         if stop.load(Relaxed) { Break(()) } else { Continue(()) }
     };
     engine.run(until, observer).map(drop)
@@ -207,7 +196,7 @@ fn impacts<'py>(
     start: Start,
 ) -> PyResult<(Array<'py>, Array<'py, u64>, Array<'py>)> {
     let mut engine = engine(scenario, start, until)?;
-    let impacts = apart(py, |stop| {
+    let impacts = compute_detached(py, |stop| {
         let mut impacts = Vec::new();
         run(&mut engine, until, stop, |event| {
             if let Event::Impact(impact) = event {
@@ -237,7 +226,7 @@ fn events<'py>(
     start: Start,
 ) -> PyResult<Bound<'py, PyList>> {
     let mut engine = engine(scenario, start, until)?;
-    let events = apart(py, |stop| {
+    let events = compute_detached(py, |stop| {
         let mut events = Vec::new();
         run(&mut engine, until, stop, |event| events.push(event.clone()))?;
         Ok(events)
@@ -263,7 +252,7 @@ fn events<'py>(
     Ok(list)
 }
 
-/// Positions and velocities of all masses at rising times.
+/// Positions and velocities of all masses at a time, or at rising times.
 ///
 /// Returns
 /// -------
@@ -274,15 +263,16 @@ fn events<'py>(
 fn states<'py>(
     py: Python<'py>,
     scenario: &Scenario,
-    at: Vec<f64>,
+    at: Bound<'py, PyAny>,
     start: Start,
 ) -> PyResult<(Matrix<'py>, Matrix<'py>)> {
+    let at: Vec<f64> = at.extract().map(|time| vec![time]).or_else(|_| at.extract())?;
     if !at.is_sorted() {
-        return Err(PyValueError::new_err("at: give rising times"));
+        return Err(refused("at", "give rising times"));
     }
     let shape = [at.len(), scenario.0.forcing.len()];
     let mut engine = engine(scenario, start, at.first().copied().unwrap_or(f64::MAX))?;
-    let (positions, velocities) = apart(py, |stop| {
+    let (positions, velocities) = compute_detached(py, |stop| {
         let (mut positions, mut velocities) = (Vec::new(), Vec::new());
         for time in at {
             run(&mut engine, time, stop, |_| ())?;
@@ -311,7 +301,7 @@ fn states<'py>(
 /// stream, seed
 ///     Of the random numbers: realisation i is `Scenario.draw(sigma, i, ...)`.
 /// **chain
-///     Fields of the chain: masses, restitution, boundary, start, …
+///     Fields of the chain: masses, restitution, boundary, initial, …
 ///
 /// Returns
 /// -------
@@ -325,47 +315,45 @@ fn states<'py>(
 fn ensemble<'py>(
     py: Python<'py>,
     sigma: f64,
-    realisations: u64,
+    realisations: i128,
     transient: f64,
     window: f64,
     stream: &str,
-    seed: u64,
+    seed: i128,
     chain: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<(Array<'py, i64>, Array<'py, i64>)> {
     if !(sigma >= 0.0 && transient >= 0.0 && window > 0.0) {
         let message = "sigma, transient, window: give no negative number, and a window above 0";
         return Err(PyValueError::new_err(message));
     }
-    let (chain, windows) = (chain_of(py, chain)?, [Protocol { transient, window }]);
+    let realisations = whole_number("realisations", realisations)?;
+    let seed = whole_number("seed", seed)?;
+    let (chain, windows) = (chain_from(chain)?, [Protocol { transient, window }]);
     let until = windows[0].end();
-    let counts = apart(py, |stop| {
+    let counts = compute_detached(py, |stop| {
         let stopped = || stop.load(Relaxed);
-        let abreast = Abreast::new(&chain, &windows, until);
+        let counting = Counting::new(&chain, &windows, until);
         let draw = |index| {
-            impact_chain::Scenario::draw(&chain, sigma, &mut NormalPairs::new(stream, seed, index))
+            impact_chain::Scenario::draw(
+                &chain,
+                sigma,
+                &mut NormalPairs::new(stream, Seed(seed), index),
+            )
         };
-        let batch = Abreast::number(&chain) as u64;
+        let batch = Abreast::batch_size(&chain) as u64;
         let starts: Vec<u64> = (0..realisations).step_by(batch as usize).collect();
         let count = |first: &u64| -> Result<Vec<[i64; 2]>, Error> {
             if stopped() {
                 return Ok(Vec::new());
             }
-            let scenarios: Vec<_> = (*first..(first + batch).min(realisations)).map(draw).collect();
-            let runs = match &abreast {
-                Some(abreast) => abreast.run(&scenarios, &stopped),
-                None => scenarios.iter().map(|_| None).collect(),
+            let indices = *first..(first + batch).min(realisations);
+            let starts = indices.map(|index| (index, Some(draw(index)))).collect();
+            let runs = counting.run(starts, |index| Engine::new(&draw(index)), &stopped)?;
+            let row = |(counts, _): &(Counts, Watch)| {
+                let distinct = counts.distinct[0][0].map_or(-1, i64::from);
+                [distinct, counts.impacts[0][0] as i64]
             };
-            let mut counts = Vec::with_capacity(runs.len());
-            for (index, (scenario, run)) in (*first..).zip(scenarios.iter().zip(runs)) {
-                let engine = || Engine::new(scenario);
-                let one = match run {
-                    Some(mut run) => run.counts(),
-                    None => Watch::new(&chain, &windows).run(engine(), index, until, &stopped)?,
-                };
-                let distinct = one.distinct[0][0].map_or(-1, i64::from);
-                counts.push([distinct, one.impacts[0][0] as i64]);
-            }
-            Ok(counts)
+            Ok(runs.iter().map(row).collect())
         };
         starts.par_iter().map(count).collect::<Result<Vec<_>, Error>>()
     })?;
@@ -377,6 +365,7 @@ fn ensemble<'py>(
 /// Chains of forced masses with impacts, simulated exactly from event to event.
 #[pymodule(name = "impact_chain")]
 fn python_module(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_class::<Scenario>()?;
     module.add_function(wrap_pyfunction!(impacts, module)?)?;
     module.add_function(wrap_pyfunction!(events, module)?)?;

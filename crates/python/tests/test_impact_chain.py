@@ -1,6 +1,7 @@
 """Tests the Python package against closed forms, and ensembles against single runs."""
 
 import json
+import pickle
 import signal
 import threading
 import time
@@ -29,6 +30,7 @@ def test_states_and_events():
     assert x.shape == v.shape == (2, 1)
     assert abs(x[0, 0] - 1 - 2 * numpy.sin(0.25)) < 1e-15
     assert abs(v[1, 0] + numpy.sqrt(3)) < 1e-14
+    assert impact_chain.states(ball(), 0.25)[0] == x[:1]
     pressed = impact_chain.Scenario(
         forcing=[[0, 0]], places=[-50], walls=[0, 1e6], restitution=0.0,
         initial={"at": {"positions": [1], "velocities": [0]}})
@@ -61,8 +63,10 @@ def test_a_run_goes_on_from_a_state_at_its_time():
 
 def test_a_scenario_is_its_json():
     scenario = impact_chain.Scenario.draw(0.2, 3, masses=4)
-    again = impact_chain.Scenario(**json.loads(scenario.to_json()))
-    assert again.to_json() == scenario.to_json()
+    assert scenario.to_dict() == json.loads(scenario.to_json())
+    for again in [impact_chain.Scenario(**scenario.to_dict()), pickle.loads(pickle.dumps(scenario))]:
+        assert again == scenario and again.to_json() == scenario.to_json()
+    assert scenario != impact_chain.Scenario.draw(0.2, 4, masses=4)
 
 
 def test_errors_name_the_field():
@@ -76,6 +80,16 @@ def test_errors_name_the_field():
         impact_chain.impacts(ball(), float("nan"))
     with pytest.raises(ValueError, match="length: give one of masses, "):
         impact_chain.ensemble(0.1, 1, length=3)
+    with pytest.raises(ValueError, match="realisations: -1; give a whole number"):
+        impact_chain.ensemble(0.1, -1)
+    with pytest.raises(ValueError, match="places: a number is not finite"):
+        ball(places=[float("nan")])
+    with pytest.raises(TypeError, match="restitution: .*complex"):
+        ball(restitution=1j)
+    with pytest.raises(ValueError, match=r"start: positions\[0\]: NaN is not finite"):
+        impact_chain.impacts(ball(), 1.0, start=(0.0, [float("nan")], [0.0]))
+    with pytest.raises(ValueError, match="start: positions: gap 0 starts overlapped by"):
+        impact_chain.impacts(ball(), 1.0, start=(0.0, [-1.0], [0.0]))
 
 
 def test_ctrl_c_ends_a_long_run():

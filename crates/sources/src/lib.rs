@@ -9,9 +9,9 @@ use std::path::{Path, PathBuf};
 /// Folders are given from that of the crate's Cargo.toml; the first has the program.
 #[proc_macro]
 pub fn sources(folders: TokenStream) -> TokenStream {
-    let folders: Vec<String> = names(folders);
+    let folders: Vec<String> = quoted_words(folders);
     let program = folders.first().cloned().unwrap_or_default();
-    let files = found(folders, &["rs"]).map(|files| [files, of_cargo()].concat());
+    let files = files_below(folders, &["rs"]).map(|files| [files, manifests()].concat());
     let compiled = compiled();
     code(files, |list| {
         format!(
@@ -21,17 +21,18 @@ pub fn sources(folders: TokenStream) -> TokenStream {
     })
 }
 
-/// Paths of Cargo.toml and Cargo.lock of the package, and of the workspace in which it lies.
-fn of_cargo() -> Vec<String> {
+/// Returns the paths of Cargo.toml and Cargo.lock of the package, and of the workspace in which it
+/// lies.
+fn manifests() -> Vec<String> {
     let (top, mut files) = (top(), Vec::new());
-    let (mut all, mut way) = (Vec::new(), String::new());
+    let (mut passed, mut way) = (Vec::new(), String::new());
     for folder in Path::new(&top).ancestors() {
         let manifest = std::fs::read_to_string(folder.join("Cargo.toml")).unwrap_or_default();
         let is_there = |name: &&str| folder.join(name).is_file();
         let names = ["Cargo.lock", "Cargo.toml"].into_iter().filter(is_there);
-        all.extend(names.map(|name| format!("{way}{name}")));
+        passed.extend(names.map(|name| format!("{way}{name}")));
         if way.is_empty() || manifest.contains("[workspace]") {
-            files.clone_from(&all);
+            files.clone_from(&passed);
         }
         if manifest.contains("[workspace]") {
             break;
@@ -41,7 +42,7 @@ fn of_cargo() -> Vec<String> {
     files
 }
 
-/// What changes the meaning of code, each with its value: the compiler, features and other
+/// Lists what changes the meaning of code, each with its value: the compiler, features and other
 /// conditions, level of optimisation, checks, processor.
 fn compiled() -> Vec<(String, String)> {
     const OPTIONS: [&str; 5] =
@@ -70,32 +71,33 @@ fn compiled() -> Vec<(String, String)> {
 #[proc_macro]
 pub fn texts(places: TokenStream) -> TokenStream {
     let endings = ["md", "tex", "bib", "toml", "html", "css", "js", "json"];
-    code(found(names(places), &endings), |list| format!("&[{list}]"))
+    code(files_below(quoted_words(places), &endings), |list| format!("&[{list}]"))
 }
 
-/// The folder of the crate's Cargo.toml.
+/// Returns the folder of the crate's Cargo.toml.
 fn top() -> String {
     std::env::var("CARGO_MANIFEST_DIR").unwrap_or_default()
 }
 
-/// The code that a list of files expands to, or an error of compilation.
+/// Returns the code that a list of files expands to, or an error of compilation.
 fn code(files: Result<Vec<String>, String>, whole: impl Fn(&str) -> String) -> TokenStream {
     let entry =
         |path: &String| format!("({path:?}, include_str!({:?})),", Path::new(&top()).join(path));
-    let text = match files {
+    let tokens = match files {
         Ok(files) => whole(&files.iter().map(entry).collect::<String>()),
         Err(error) => format!("compile_error!({error:?})"),
     };
-    text.parse().unwrap_or_default()
+    tokens.parse().unwrap_or_default()
 }
 
-/// The words in quotation marks.
-fn names(tokens: TokenStream) -> Vec<String> {
+/// Returns the words in quotation marks.
+fn quoted_words(tokens: TokenStream) -> Vec<String> {
     tokens.to_string().split('"').skip(1).step_by(2).map(String::from).collect()
 }
 
-/// Paths of all files with one of these endings below the places that were given, sorted.
-fn found(places: Vec<String>, endings: &[&str]) -> Result<Vec<String>, String> {
+/// Returns the paths of all files with one of these endings below the places that were given,
+/// sorted.
+fn files_below(places: Vec<String>, endings: &[&str]) -> Result<Vec<String>, String> {
     let (mut files, mut open) = (Vec::new(), places);
     while let Some(place) = open.pop() {
         let path: PathBuf = Path::new(&top()).join(&place);

@@ -1,6 +1,6 @@
 //! Describes the options of the verb `trace`.
 
-use super::super::range::{Times, times, within};
+use super::super::range::{Times, number, times};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use impact_chain::LATEST;
 use impact_paper::params::MethodName::{self, *};
@@ -48,7 +48,7 @@ pub struct Args {
     #[arg(value_name = "SCENARIO.json")]
     pub(super) scenario: PathBuf,
     /// Stop at this time.
-    #[arg(long, value_name = "T", value_parser = within(0.0, LATEST), allow_hyphen_values = true,
+    #[arg(long, value_name = "T", value_parser = number(0.0, LATEST), allow_hyphen_values = true,
         required_unless_present = "at")]
     pub(super) until: Option<f64>,
     /// Print time, mass, position and velocity at these times up to --until instead: a rising list,
@@ -67,12 +67,12 @@ pub struct Args {
     /// scenario may be another, as along a branch.
     #[arg(long, value_name = "FILE", conflicts_with = "lines")]
     pub(super) from: Option<PathBuf>,
-    /// Read a scenario from each line; the first column is its number. They are run on all cores
-    /// and answered in order, and the first that is refused ends the run.
+    /// Read a scenario from each line that is not blank; the first column is its number. They are
+    /// run on all cores and answered in order, and the first that is refused ends the run.
     #[arg(long)]
     pub(super) lines: bool,
     /// Go on after a line that is refused or stopped: a column says "ok", "refused" or "stopped",
-    /// and each line has a row, without numbers if there are none.
+    /// and each line has a row, without numbers if there are none. The exit code is 1 then.
     #[arg(long, requires = "lines")]
     pub(super) keep_going: bool,
     /// Stop after this many impacts.

@@ -2,12 +2,12 @@
 
 use super::super::range::Times;
 use super::args::Args;
-use impact_chain::methods::Cost;
+use impact_chain::methods::{Cost, Task};
 use impact_chain::rounding;
 use impact_chain::{Counters, End, Engine, Error, Event, Graze, Impact, LATEST, Scenario, State};
 use impact_paper::params::MethodName;
 use literate::Failure;
-use literate::input::{one_line, plain};
+use literate::input::{in_plain_words, one_line};
 use std::f64::consts::TAU;
 use std::fmt::{Arguments, Write};
 use std::ops::ControlFlow::{Break, Continue};
@@ -32,6 +32,8 @@ pub enum Part {
     /// Whole rows; none at all at a good end.
     Rows(String),
     Note(String),
+    /// Why a line failed after which the others go on.
+    FailedLine(String),
     Failed(Failure),
 }
 
@@ -103,7 +105,7 @@ impl Job {
             Err(failure) if self.args.keep_going => {
                 rows.first_cells = cells(if failure.code == 1 { "stopped" } else { "refused" });
                 rows.row(format_args!("{commas}"));
-                Some(Part::Note(failure.message))
+                Some(Part::FailedLine(failure.message))
             }
             Err(failure) => Some(Part::Failed(failure)),
         };
@@ -127,14 +129,14 @@ impl Job {
             Ok(scenario) => scenario,
             Err(error) => return (Err(in_file(name, error)), Vec::new()),
         };
-        let start = self.start.clone().unwrap_or_else(|| State::of(&scenario));
+        let start = self.start.clone().unwrap_or_else(|| State::from_scenario(&scenario));
         let ran = if self.args.method == MethodName::Certified {
             self.by_engine(&scenario, &start, rows)
         } else {
             self.by_method(&scenario, &start, rows).map(|cost| (cost, None))
         };
         let mut notes = ran.as_ref().map_or(Vec::new(), |(cost, _)| doubts(cost));
-        let width = rounding::width(&scenario);
+        let width = rounding::gap_error(&scenario);
         let closed = matches!(self.args.method, MethodName::Certified | MethodName::Sampled);
         let began = matches!(ran, Ok(_) | Err(Error::Work { .. }));
         if closed && began && width > rounding::REPORTED * scenario.spacing {
@@ -143,7 +145,14 @@ impl Job {
                  and errors grow from impact to impact"
             ));
         }
-        let ran = ran.map_err(|error| in_file(name, error));
+        let ran = ran.map_err(|error| {
+            let field = error.field().unwrap_or_default();
+            let of_state = ["time", "positions", "velocities"].iter().any(|f| field.starts_with(f));
+            match &self.args.from {
+                Some(path) if of_state => in_file(&format!("--from: {}", path.display()), error),
+                _ => in_file(name, error),
+            }
+        });
         let ended = ran.and_then(|(_, state)| match (&self.args.save, state) {
             (Some(path), Some(state)) => save(path, &state),
             _ => Ok(()),
@@ -163,8 +172,8 @@ impl Job {
     ) -> Result<Cost, Error> {
         let mut left = self.args.max_impacts.unwrap_or(u64::MAX);
         let until = if left == 0 { start.time } else { self.args.until.unwrap_or_default() };
-        let method = self.args.method.with(self.setting, 0.0);
-        method.run((scenario, start, until), &mut |Impact { time, gap, closing_speed }| {
+        let method = self.args.method.with_setting(self.setting, 0.0);
+        method.run(Task { scenario, start, until }, &mut |Impact { time, gap, closing_speed }| {
             self.note_time(time);
             if left > 0 {
                 rows.row(format_args!("{time:?},{gap},{closing_speed:?}"));
@@ -239,8 +248,12 @@ impl Job {
                 Box::new(multiples.map(|k| k as f64 * period).skip_while(|time| *time < from))
             }
         };
-        let mut last = from;
+        let (mut last, mut printed) = (from, None);
         for time in times.take_while(|time| *time <= until.unwrap_or(LATEST)) {
+            // Equal times have one state.
+            if printed.replace(time) == Some(time) {
+                continue;
+            }
             engine.advance(time)?;
             self.note_time(time);
             let state = engine.state(time)?;
@@ -295,6 +308,9 @@ fn in_file(name: &str, error: Error) -> Failure {
         Error::Input { ref field, .. } if ["step", "tolerance"].contains(&field.as_str()) => {
             Failure::input(format!("--{error}"))
         }
-        error => Failure::input(format!("{name}: {}", one_line(&plain(&error.to_string()), 1000))),
+        error => Failure::input(format!(
+            "{name}: {}",
+            one_line(&in_plain_words(&error.to_string()), 1000)
+        )),
     }
 }

@@ -5,10 +5,10 @@ use super::case::Expected;
 use super::race::Entry;
 use super::tables::{in_formulas, own_error, pairs};
 use super::trials::{Trial, Trials, right};
-use crate::experiments::measured::What::{self, Question as Asked};
+use crate::experiments::measured::{Subject, Times};
 use crate::experiments::prelude::*;
 use crate::experiments::programs::{Program, Run};
-use crate::experiments::{BIAS, MEASURED, Measured, PROGRAMS, RACE, TRIALS};
+use crate::experiments::{BIAS, MEASURED, PROGRAMS, RACE, TRIALS};
 use crate::params::{Means, MethodName::Certified, Setting};
 use impact_numerics::estimates::LEVEL;
 use impact_numerics::statistics::{mean, student_quantile, wilson};
@@ -17,7 +17,7 @@ use literate::table::Building;
 /// How far a mean may be off, relative to it, at each σ.
 const MEANS: [(f64, f64); 4] = [(0.11, 0.05), (0.12, 0.05), (0.14, 0.01), (0.115, 0.05)];
 
-/// How far the share of chains with any impact, and the half height, may be off, relative to it.
+/// How far the share of chains with an impact may be off, and the half height, relative to it.
 const ALIKE: f64 = 0.01;
 
 /// Times to which an orbit is wanted, in units of 1/ω, and the share of chains in which it is.
@@ -36,22 +36,22 @@ struct Answer {
     seconds: f64,
     chains: usize,
     /// The error, or the share of runs that are right to the time that is asked.
-    found: Estimate,
+    result: Estimate,
     /// How far this is inside of what is allowed; negative outside.
     margin: f64,
     /// From the value to the end of its 95 % interval that lies towards what is allowed.
-    half: f64,
+    half_interval: f64,
 }
 
 /// Returns half of the 95 % interval of a mean over chains, by Student's t.
-fn half(chains: usize, error: f64) -> f64 {
+fn half_interval(chains: usize, error: f64) -> f64 {
     let quantile = student_quantile(LEVEL, chains.saturating_sub(1));
     quantile.map_or(f64::INFINITY, |t| t * error)
 }
 
 impl Answer {
     fn is_enough(&self) -> bool {
-        self.margin >= self.half
+        self.margin >= self.half_interval
     }
 }
 
@@ -75,22 +75,27 @@ impl Question {
         self.answers.iter().find(|answer| answer.setting.method == Certified)
     }
 
-    /// Returns by what factor the engine or its fastest rival is faster than the other.
+    /// Returns by what factor the engine or its fastest rival is faster than the other, or `None`
+    /// if one of them does not answer.
     fn lead(&self) -> Option<f64> {
         let ratio = self.rival()?.seconds / self.engine()?.seconds;
         Some(ratio.max(1.0 / ratio))
     }
 
     /// Names the method of the least time, or says that it ties, or that the chains do not decide.
-    fn take(&self) -> String {
+    fn choice(&self) -> String {
         let engine = self.engine().filter(|engine| engine.is_enough());
-        let is_near = |answer: &Answer| engine.is_some_and(|of| answer.seconds < TIE * of.seconds);
-        let is_open = |answer: &Answer| !answer.is_enough() && answer.margin > -answer.half;
+        let is_near =
+            |answer: &Answer| engine.is_some_and(|engine| answer.seconds < TIE * engine.seconds);
+        let is_open =
+            |answer: &Answer| !answer.is_enough() && answer.margin > -answer.half_interval;
         match self.rival().zip(engine) {
-            Some((rival, of)) if TIE * rival.seconds <= of.seconds => named(Some(rival)),
-            _ if self.answers.iter().any(|of| is_open(of) && is_near(of)) => "undecided".into(),
+            Some((rival, engine)) if TIE * rival.seconds <= engine.seconds => name_of(Some(rival)),
+            _ if self.answers.iter().any(|answer| is_open(answer) && is_near(answer)) => {
+                "undecided".into()
+            }
             Some((rival, _)) if is_near(rival) => "tie".into(),
-            _ => named(cheapest(&self.answers)),
+            _ => name_of(cheapest(&self.answers)),
         }
     }
 }
@@ -98,18 +103,20 @@ impl Question {
 pub fn tables(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
     let (biases, measured) = (results.of(&BIAS).ok()?, results.of(&MEASURED).ok()?);
     let race = results.of(&RACE).ok()?;
-    let orbits = |generic: bool, until: f64| {
+    let orbits = |is_generic: bool, until: f64| {
         let run = &race.parameters.growth;
         let answer = |entry: &Entry| {
             let (chains, setting) = (entry.runs.len(), entry.setting);
-            let seconds = measured.seconds((Asked, generic), setting, run, until)?;
+            let times = Times { measured, is_generic };
+            let seconds = times.seconds(Subject::Question, setting, run, until)?;
             let right = entry.runs.iter().filter(|left| **left >= until).count();
             let interval = wilson(right as u64, chains as u64, LEVEL)?;
             let value = right as f64 / chains as f64;
             let error = (interval[1] - interval[0]) / 4.0;
-            let (found, margin) = (Estimate { value, error, interval }, value - MOST);
-            let half = if margin > 0.0 { value - interval[0] } else { interval[1] - value };
-            Some(Answer { setting, seconds, chains, found, margin, half })
+            let (result, margin) = (Estimate { value, error, interval }, value - MOST);
+            let half_interval =
+                if margin > 0.0 { value - interval[0] } else { interval[1] - value };
+            Some(Answer { setting, seconds, chains, result, margin, half_interval })
         };
         Question {
             id: until.to_string(),
@@ -117,10 +124,10 @@ pub fn tables(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
             answers: race.entries.iter().filter_map(answer).collect(),
         }
     };
-    let orbits = ORBITS.map(|until| [false, true].map(|generic| orbits(generic, until)));
+    let orbits = ORBITS.map(|until| [false, true].map(|is_generic| orbits(is_generic, until)));
     let programs = results.of(&PROGRAMS).ok()?;
     let trials = results.of(&TRIALS).ok()?;
-    let all = Table::of("answers.all", &[()], |()| cases_at_rest(trials))
+    let summary = Table::of("answers.all", &[()], |()| cases_at_rest(trials))
         .chosen("share", "1", "share of chains in which an orbit must be right", |()| Some(MOST))
         .chosen("tie", "1", "times that differ by less than this factor tie", |()| Some(TIE))
         .computed_by(origin(tables))
@@ -134,22 +141,24 @@ pub fn tables(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
             names(programs, &["grazing-hits", "grazing-misses"])
         })
         .done();
-    let [means, generic] = [false, true].map(|generic| questions(biases, (measured, generic)));
+    let [means, generic] =
+        [false, true].map(|is_generic| questions(biases, Times { measured, is_generic }));
     let means: Vec<[Question; 2]> = means.into_iter().zip(generic).map(Into::into).collect();
     let means = table("answers.means", "1", &means).done();
     let orbits = table("answers.orbits", "1", &orbits)
-        .words("right", "runs of the rival that are right to that time", |[of, _]| {
-            of.rival().map_or("–".into(), |answer| {
-                let right = (answer.found.value * answer.chains as f64).round();
+        .words("right", "runs of the rival that are right to that time", |[own, _]| {
+            own.rival().map_or("–".into(), |answer| {
+                let right = (answer.result.value * answer.chains as f64).round();
                 format!("{right} of {}", answer.chains)
             })
         })
         .done();
-    Some(vec![means, orbits, all])
+    Some(vec![means, orbits, summary])
 }
 
-fn named(answer: Option<&Answer>) -> String {
-    answer.map_or("–".into(), |of| in_formulas(&of.setting.name()))
+/// Returns the name of the setting of an answer, a dash without one.
+fn name_of(answer: Option<&Answer>) -> String {
+    answer.map_or("–".into(), |answer| in_formulas(&answer.setting.name()))
 }
 
 fn table<'a>(
@@ -160,88 +169,99 @@ fn table<'a>(
     let seconds = |answer: Option<&Answer>| answer.map(|answer| answer.seconds);
     const CHEAPEST: &str = "seconds of one core for a thousand chains";
     const LEAD: &str = "time of the engine or its fastest rival over that of the other";
-    Table::of(name, questions, |[of, _]| of.rival().map_or(0, |answer| answer.chains))
-        .text_key("id", |[of, _]| of.id.clone())
-        .words("question", "what is asked", |[of, _]| of.words.clone())
+    Table::of(name, questions, |[own, _]| own.rival().map_or(0, |answer| answer.chains))
+        .text_key("id", |[own, _]| own.id.clone())
+        .words("question", "what is asked", |[own, _]| own.words.clone())
         .computed_by(origin(tables))
-        .words("take", "the method of the least time", |[of, _]| of.take())
-        .real("lead", "1", 2, LEAD, |[of, _]| of.lead())
-        .words("generic", "the same by any processor's vectors", |[_, of]| of.take())
-        .real("generic_lead", "1", 2, LEAD, |[_, of]| of.lead())
-        .words("rival", "the rival of the least time", |[of, _]| named(of.rival()))
-        .real("seconds", "s", 2, CHEAPEST, |[of, _]| seconds(of.rival()))
-        .estimate("found", unit, "its error, or share of runs that are right", |[of, _]| {
-            Some(of.rival()?.found)
+        .words("take", "the method of the least time", |[own, _]| own.choice())
+        .real("lead", "1", 2, LEAD, |[own, _]| own.lead())
+        .words("generic", "the same by any processor's vectors", |[_, generic]| generic.choice())
+        .real("generic_lead", "1", 2, LEAD, |[_, generic]| generic.lead())
+        .words("rival", "the rival of the least time", |[own, _]| name_of(own.rival()))
+        .real("seconds", "s", 2, CHEAPEST, |[own, _]| seconds(own.rival()))
+        .estimate("found", unit, "its error, or share of runs that are right", |[own, _]| {
+            Some(own.rival()?.result)
         })
-        .real("engine", "s", 2, "the engine's seconds", |[of, _]| seconds(of.engine()))
+        .real("engine", "s", 2, "the engine's seconds", |[own, _]| seconds(own.engine()))
 }
 
-/// The counts of all settings at one σ, and those of the engine again.
+/// The counts of all settings at one σ, and the second counts of the engine.
 type Runs<'a> = (&'a Vec<Vec<GapCount>>, &'a Vec<GapCount>);
 
-/// Asks how far a mean over chains is off; `values` turns a method's pairs at each σ into errors.
+/// A question about means over chains at some σ.
+struct Asked<'a> {
+    id: String,
+    words: String,
+    sigmas: &'a [f64],
+    /// How far the answer may be off.
+    tolerance: f64,
+    /// Whether a share of chains is asked for.
+    is_share: bool,
+}
+
+/// Answers a question by every method; `errors` turns a method's pairs at each σ into errors.
 fn question(
     biases: &Biases,
-    (measured, generic): (&Measured, bool),
-    sigmas: &[f64],
-    tolerance: f64,
-    ([id, words], is_share): ([String; 2], bool),
-    values: impl Fn(&[Vec<[f64; 2]>]) -> Vec<f64>,
+    times: Times,
+    asked: Asked,
+    errors: impl Fn(&[Vec<[f64; 2]>]) -> Vec<f64>,
 ) -> Option<Question> {
-    let at = |sigma: &f64| {
-        let all = biases.runs.iter().zip(&biases.again);
-        biases.parameters.means.iter().zip(all).find(|(of, _)| of.chains.sigma == *sigma)
+    let Asked { id, words, sigmas, tolerance, is_share } = asked;
+    let find = |sigma: &f64| {
+        let runs = biases.runs.iter().zip(&biases.again);
+        biases.parameters.means.iter().zip(runs).find(|(means, _)| means.chains.sigma == *sigma)
     };
-    let all = sigmas.iter().map(at).collect::<Option<Vec<_>>>()?;
+    let ensembles = sigmas.iter().map(find).collect::<Option<Vec<_>>>()?;
     let answer = |&(setting, _): &(Setting, usize)| {
-        let run = |of: &Means| of.settings.iter().position(|(other, _)| *other == setting);
-        let pairs = |&(of, (runs, again)): &(&Means, Runs)| {
+        let place = |means: &Means| means.settings.iter().position(|(other, _)| *other == setting);
+        let pairs = |&(means, (runs, again)): &(&Means, Runs)| {
             // Shares compare one run with another.
             let ours = [&runs[0][..], if is_share { &runs[0] } else { again }];
-            Some(pairs(&runs[run(of)?], ours))
+            Some(pairs(&runs[place(means)?], ours))
         };
-        let pairs = all.iter().map(pairs).collect::<Option<Vec<_>>>()?;
-        let values = values(&pairs);
-        let found = match setting.method {
+        let pairs = ensembles.iter().map(pairs).collect::<Option<Vec<_>>>()?;
+        let errors = errors(&pairs);
+        let result = match setting.method {
             Certified => {
-                let own = all
+                let own = ensembles
                     .iter()
                     .map(|(_, (runs, again))| own_error([&runs[0], again], runs[0].len()));
                 with_error(0.0, if is_share { 0.0 } else { own.fold(0.0, f64::max) })
             }
             // Where all chains agree, only of a share one knows how often they would not.
-            _ => average(&values).filter(|found| is_share || found.error > 0.0)?,
+            _ => average(&errors).filter(|mean| is_share || mean.error > 0.0)?,
         };
-        let time = |(of, _): &(&Means, Runs)| {
-            let what = if is_share { Asked } else { What::Method };
-            measured.seconds((what, generic), setting, &of.chains, of.chains.until)
+        let time = |(means, _): &(&Means, Runs)| {
+            let subject = if is_share { Subject::Question } else { Subject::Method };
+            times.seconds(subject, setting, &means.chains, means.chains.until)
         };
-        let seconds = all.iter().map(time).sum::<Option<f64>>()?;
-        let (chains, off) = (values.len(), found.value.abs());
+        let seconds = ensembles.iter().map(time).sum::<Option<f64>>()?;
+        let (chains, off) = (errors.len(), result.value.abs());
         let margin = tolerance - off;
-        let half = if is_share && setting.method != Certified {
+        let half_interval = if is_share && setting.method != Certified {
             let [low, high] = wilson((off * chains as f64).round() as u64, chains as u64, LEVEL)?;
             if margin > 0.0 { high - off } else { off - low }
         } else {
-            half(chains, found.error)
+            half_interval(chains, result.error)
         };
-        Some(Answer { setting, seconds, chains, found, margin, half })
+        Some(Answer { setting, seconds, chains, result, margin, half_interval })
     };
-    let answers = all[0].0.settings.iter().filter_map(answer).collect();
+    let answers = ensembles[0].0.settings.iter().filter_map(answer).collect();
     Some(Question { id, words, answers })
 }
 
 /// Questions about means: of gaps with an impact, of chains with any, and where the first rises.
-fn questions(biases: &Biases, measured: (&Measured, bool)) -> Vec<Question> {
+fn questions(biases: &Biases, times: Times) -> Vec<Question> {
     let ours = |pairs: &[[f64; 2]]| mean(&pairs.iter().map(|pair| pair[1]).collect::<Vec<_>>());
-    let mut all = Vec::new();
-    for of in &biases.parameters.means {
-        let (sigma, transient) = (of.chains.sigma, of.transient);
+    let mut questions = Vec::new();
+    for means in &biases.parameters.means {
+        let (sigma, transient) = (means.chains.sigma, means.transient);
         let Some(&(_, tolerance)) = MEANS.iter().find(|mean| mean.0 == sigma) else { continue };
         let percent = 100.0 * tolerance;
         let words = format!("a mean to {percent} %, $σ = {sigma}$, $T = {transient}$");
-        let named = [format!("mean-{sigma}"), words];
-        all.extend(question(biases, measured, &[sigma], tolerance, (named, false), |pairs| {
+        let id = format!("mean-{sigma}");
+        let asked = Asked { id, words, sigmas: &[sigma], tolerance, is_share: false };
+        questions.extend(question(biases, times, asked, |pairs| {
             let [theirs, ours] = [0, 1].map(|i| pairs[0].iter().map(|pair| pair[i]).sum::<f64>());
             let (ratio, mean) = (theirs / ours, ours / pairs[0].len() as f64);
             let residual = |pair: &[f64; 2]| (pair[0] - ratio * pair[1]) / mean + ratio - 1.0;
@@ -251,36 +271,25 @@ fn questions(biases: &Biases, measured: (&Measured, bool)) -> Vec<Question> {
     let (low, high, percent) = (MEANS[0].0, MEANS[1].0, 100.0 * ALIKE);
     let words =
         format!("the share of chains with an impact to {percent} percentage point, $σ = {low}$");
-    all.extend(question(
-        biases,
-        measured,
-        &[low],
-        ALIKE,
-        (["share".into(), words], true),
-        |pairs| {
-            let any = |count: f64| f64::from(u8::from(count > 0.0));
-            pairs[0].iter().map(|pair| any(pair[0]) - any(pair[1])).collect()
-        },
-    ));
+    let (tolerance, id) = (ALIKE, "share".into());
+    let asked = Asked { id, words, sigmas: &[low], tolerance, is_share: true };
+    questions.extend(question(biases, times, asked, |pairs| {
+        let any = |count: f64| f64::from(u8::from(count > 0.0));
+        pairs[0].iter().map(|pair| any(pair[0]) - any(pair[1])).collect()
+    }));
     let words = format!("the half height of the rise to {percent} %");
-    all.extend(question(
-        biases,
-        measured,
-        &[low, high],
-        ALIKE,
-        (["rise".into(), words], false),
-        |pairs| {
-            let half = 0.5 * (1 + biases.parameters.means[0].chains.chain.masses) as f64;
-            let [below, above] = [0, 1].map(|i| ours(&pairs[i]).unwrap_or(f64::NAN));
-            let slope = (above - below) / (high - low);
-            let (part, height) = ((half - below) / (above - below), low + (half - below) / slope);
-            let lower =
-                |[a, b]: [&[f64; 2]; 2]| (1.0 - part) * (a[1] - a[0]) + part * (b[1] - b[0]);
-            let both = pairs[0].iter().zip(&pairs[1]);
-            both.map(|(a, b)| lower([a, b]) / slope / height).collect()
-        },
-    ));
-    all
+    let (sigmas, id) = (&[low, high], "rise".into());
+    let asked = Asked { id, words, sigmas, tolerance, is_share: false };
+    questions.extend(question(biases, times, asked, |pairs| {
+        let half = 0.5 * (1 + biases.parameters.means[0].chains.chain.masses) as f64;
+        let [below, above] = [0, 1].map(|i| ours(&pairs[i]).unwrap_or(f64::NAN));
+        let slope = (above - below) / (high - low);
+        let (part, height) = ((half - below) / (above - below), low + (half - below) / slope);
+        let lower = |[a, b]: [&[f64; 2]; 2]| (1.0 - part) * (a[1] - a[0]) + part * (b[1] - b[0]);
+        let both = pairs[0].iter().zip(&pairs[1]);
+        both.map(|(a, b)| lower([a, b]) / slope / height).collect()
+    }));
+    questions
 }
 
 /// Counts the cases in which masses come to rest.
@@ -301,9 +310,9 @@ fn cradle(trials: &Trials) -> Option<f64> {
 /// Names the programs with a setting that is right in all cases of some scenes.
 fn names(programs: &[Program], scenes: &[&str]) -> String {
     let is_right = |trial: &Trial| right(trial) == trial.len();
-    let chosen = |run: &&Run| scenes.iter().all(|scene| is_right(&run.outcomes[*scene]));
-    let of = programs.iter().filter_map(|of| of.settings.iter().find(chosen));
-    of.map(|run| &*run.name).collect::<Vec<_>>().join(", ")
+    let solves = |run: &&Run| scenes.iter().all(|scene| is_right(&run.outcomes[*scene]));
+    let runs = programs.iter().filter_map(|program| program.settings.iter().find(solves));
+    runs.map(|run| &*run.name).collect::<Vec<_>>().join(", ")
 }
 
 #[cfg(test)]
@@ -317,9 +326,9 @@ mod tests {
             setting,
             seconds,
             chains: 100,
-            found: with_error(0.0, error),
+            result: with_error(0.0, error),
             margin,
-            half: half(100, error),
+            half_interval: half_interval(100, error),
         }
     }
 
@@ -338,15 +347,15 @@ mod tests {
 
     #[test]
     fn a_tie_is_undecided_where_a_faster_setting_is_open() {
-        let take = |faster: Option<Answer>| {
+        let choice = |faster: Option<Answer>| {
             let setting = Setting { method: Certified, value: 0.0, stop: 0.0 };
             let engine = Answer { setting, ..answer(1.0, 0.05, 0.0) };
             let answers = [engine, answer(0.9, 0.04, 0.01)].into_iter().chain(faster).collect();
-            Question { id: String::new(), words: String::new(), answers }.take()
+            Question { id: String::new(), words: String::new(), answers }.choice()
         };
-        assert_eq!(take(None), "tie");
-        assert_eq!(take(Some(answer(0.5, 0.01, 0.02))), "undecided");
-        assert_eq!(take(Some(answer(0.5, -0.05, 0.01))), "tie");
-        assert_eq!(take(Some(answer(0.5, 0.04, 0.01))), "Verlet, $h = 0.5$");
+        assert_eq!(choice(None), "tie");
+        assert_eq!(choice(Some(answer(0.5, 0.01, 0.02))), "undecided");
+        assert_eq!(choice(Some(answer(0.5, -0.05, 0.01))), "tie");
+        assert_eq!(choice(Some(answer(0.5, 0.04, 0.01))), "Verlet, $h = 0.5$");
     }
 }

@@ -3,7 +3,7 @@
 use crate::experiments::prelude::*;
 use crate::params::{BiasParams, Means, MethodName, Setting};
 use impact_chain::Abreast;
-use impact_chain::methods::VerletAbreast;
+use impact_chain::methods::{Task, VerletAbreast, Window};
 use rayon::prelude::*;
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -11,61 +11,66 @@ pub struct Biases {
     pub parameters: BiasParams,
     /// For each σ and each setting, in their order, the realisations.
     pub runs: Vec<Vec<Vec<GapCount>>>,
-    /// For each σ, those of the engine when all forces are changed by a few roundings.
+    /// For each σ, the realisations of the engine with all forces changed by a few roundings.
     pub again: Vec<Vec<GapCount>>,
 }
 
-/// Different gaps with an impact in the window of one realisation; none if the method gave up.
+/// Different gaps with an impact in the window of one realisation, or `None` if the method gave up.
 pub type GapCount = Option<u32>;
 
 pub fn run(parameters: &BiasParams, progress: &Progress) -> Result<Biases, Error> {
     let stage = progress.stage("error of the mean", parameters.runs());
-    let together = |of: &Means, nudged: bool| {
-        let ensemble = of.ensemble(nudged);
-        let (number, all) = (Abreast::number(&ensemble.chain), ensemble.realisations as u64);
-        let groups = (0..all).step_by(number);
-        let found = each(&stage, progress, groups, |first| {
-            let at = ensemble.at(ensemble.sigmas[0]);
-            let counts = at.count(first..all.min(first + number as u64), &|| progress.stopped());
+    let together = |means: &Means, nudged: bool| {
+        let ensemble = means.ensemble(nudged);
+        let (number, end) = (Abreast::batch_size(&ensemble.chain), ensemble.realisations as u64);
+        let groups = (0..end).step_by(number);
+        let counts = run_each(&stage, progress, groups, |first| {
+            let realisations = ensemble.prepare(ensemble.sigmas[0]);
+            let group = first..end.min(first + number as u64);
+            let counts = realisations.count(group, &|| progress.stopped());
             let counts = counts.map_err(|source| Error::failed("bias", source))?;
             stage.advance(counts.len() as u64 - 1);
             Ok(counts.into_iter().map(|one| one.distinct[0][0]).collect::<Vec<_>>())
         })?;
         progress.check()?;
-        Ok(found.concat())
+        Ok(counts.concat())
     };
-    let methods = |of: &Means| {
+    let methods = |means: &Means| {
         let one = |&(setting, realisations): &(Setting, usize)| {
             if setting.method == MethodName::Certified {
-                return together(of, false);
+                return together(means, false);
             }
             if setting.method == MethodName::VerletAbreast {
-                let all = (0..realisations as u64).map(|index| of.chains.scenario(index));
-                let (all, window) = (all.collect::<Vec<_>>(), Some((of.transient, false)));
+                let drawn = (0..realisations as u64).map(|index| means.chains.scenario(index));
+                let (scenarios, window) = (
+                    drawn.collect::<Vec<_>>(),
+                    Some(Window { after: means.transient, ends_with_one: false }),
+                );
                 let verlet = VerletAbreast { step: setting.value };
-                let ran = verlet.run_all(&all, of.chains.until, window, &mut |_, _| true);
+                let ran = verlet.run_all(&scenarios, means.chains.until, window, &mut |_, _| true);
                 let (_, counts) = ran.map_err(|source| Error::failed("bias", source))?;
                 stage.advance(realisations as u64);
                 return Ok(counts.into_iter().map(Some).collect());
             }
             let method = setting.method();
-            each(&stage, progress, 0..realisations as u64, |index| {
-                let scenario = of.chains.scenario(index);
+            run_each(&stage, progress, 0..realisations as u64, |index| {
+                let scenario = means.chains.scenario(index);
                 let mut hit = vec![false; scenario.gaps()];
                 let mut see = |impact: Impact| {
-                    hit[impact.gap] |= impact.time > of.transient;
+                    hit[impact.gap] |= impact.time > means.transient;
                     !progress.stopped()
                 };
-                let task = (&scenario, &State::of(&scenario), of.chains.until);
+                let start = State::from_scenario(&scenario);
+                let task = Task { scenario: &scenario, start: &start, until: means.chains.until };
                 let ran = method.run(task, &mut see);
                 progress.check()?;
                 Ok(ran.ok().map(|_| hit.iter().map(|hit| u32::from(*hit)).sum()))
             })
         };
-        of.settings.par_iter().map(one).collect()
+        means.settings.par_iter().map(one).collect()
     };
     let runs = parameters.means.par_iter().map(methods).collect::<Result<_, Error>>()?;
-    let again = parameters.means.par_iter().map(|of| together(of, true));
+    let again = parameters.means.par_iter().map(|means| together(means, true));
     let again = again.collect::<Result<_, Error>>()?;
     Ok(Biases { runs, again, parameters: parameters.clone() })
 }

@@ -10,7 +10,8 @@ use serde_json::Value as Json;
 #[serde(deny_unknown_fields)]
 pub struct Scene {
     pub id: String,
-    pub what: String,
+    #[serde(rename = "what")]
+    pub title: String,
     /// Why the outcome is what it is.
     pub why: String,
     pub cases: Vec<Case>,
@@ -84,7 +85,8 @@ pub enum Outcome {
 }
 
 impl Outcome {
-    pub fn words(self) -> &'static str {
+    /// Returns the words that tables have for it.
+    pub fn label(self) -> &'static str {
         match self {
             Outcome::Right => "right",
             Outcome::Missed => "missed",
@@ -99,6 +101,7 @@ impl Outcome {
     }
 }
 
+/// Returns the scenes with which the program was built.
 pub fn scenes() -> Vec<Scene> {
     let read = serde_json::from_str(include_str!("../../../scenes/scenes.json"));
     read.unwrap_or_else(|error| panic!("scenes/scenes.json: {error}; mend it and build again"))
@@ -118,11 +121,13 @@ impl Case {
         Scenario::parse_json(&self.scenario.to_string())
     }
 
-    /// Returns the outcome, and the least speed at which a gap opened by the law; infinite if none.
+    /// Runs the case by a method, and returns the outcome and the least speed at which a gap opened
+    /// by the law, infinity if none did.
     pub fn run(&self, method: &Run) -> (Outcome, f64) {
         let Ok(scenario) = self.chain() else { return (Outcome::Refused, f64::INFINITY) };
         let (mut seen, mut slowest) = (Vec::new(), f64::INFINITY);
-        let ran = method((&scenario, &self.start, self.until), &mut |impact| {
+        let task = Task { scenario: &scenario, start: &self.start, until: self.until };
+        let ran = method(task, &mut |impact| {
             slowest = slowest.min(scenario.restitution * impact.closing_speed);
             if self.expected.counts(&impact) {
                 seen.push(impact);
@@ -139,6 +144,7 @@ impl Case {
         (outcome, slowest)
     }
 
+    /// Returns the outcome of a run with these impacts.
     pub fn judge(&self, impacts: &[Impact]) -> Outcome {
         let counts = |impact: &Impact| impact.time <= self.until && self.expected.counts(impact);
         let counted = impacts.iter().copied().filter(counts);

@@ -4,7 +4,7 @@ use crate::experiments::horizon::{self, Horizon};
 use crate::experiments::prelude::*;
 use crate::params::{RaceParams, Setting};
 use impact_chain::methods::truth::{Hit, TrueMotion};
-use impact_chain::methods::{Cost, Method};
+use impact_chain::methods::{Cost, Method, Task};
 use impact_numerics::double_double::DoubleDouble;
 use impact_numerics::statistics::{mean, quantile, standard_error};
 
@@ -33,16 +33,16 @@ pub struct Entry {
     pub runs: Vec<f64>,
     /// Number of exact states from which the next impact was computed.
     pub tried: u64,
-    /// Those of them whose next impact was not found, or not within [`DISPLACED`].
+    /// Number of these states whose next impact was not found, or not within [`DISPLACED`].
     pub misses: u64,
-    /// Median and largest error of its time, of those with the right gap.
+    /// Median and largest error of the time of the next impact, over those with the right gap.
     pub errors: Option<[f64; 2]>,
     /// The largest of these errors in units of ε (d + R₁ + R₂)/|Δ'|.
     pub units: Option<f64>,
 }
 
 impl Entry {
-    /// Returns the mean time of leaving the truth: a lower bound if some did not.
+    /// Returns the mean time at which runs left the truth, a lower bound if some did not leave it.
     pub fn horizon(&self) -> Option<Estimate> {
         mean(&self.runs).map(|mean| with_error(mean, standard_error(&self.runs).unwrap_or(0.0)))
     }
@@ -56,15 +56,16 @@ struct Course {
 pub fn run(parameters: &RaceParams, progress: &Progress) -> Result<Race, Error> {
     let growth = horizon::run(&parameters.growth, progress)?;
     let stage = progress.stage("true motions", parameters.chains as u64);
-    let courses = each(&stage, progress, 0..parameters.chains as u64, |index| {
+    let courses = run_each(&stage, progress, 0..parameters.chains as u64, |index| {
         let scenario = parameters.growth.scenario(index);
-        let hits = TrueMotion::of(&scenario, &State::of(&scenario)).run(parameters.until);
+        let hits = TrueMotion::from_state(&scenario, &State::from_scenario(&scenario))
+            .run(parameters.until);
         Ok(Course { scenario, hits: hits.map_err(|source| Error::failed("race", source))? })
     })?;
     let targets = targets(parameters.segments, &courses);
     let targets = targets.map_err(|source| Error::failed("race", source))?;
     let stage = progress.stage("methods against the truth", parameters.settings.len() as u64);
-    let entries = each(&stage, progress, &parameters.settings, |setting| {
+    let entries = run_each(&stage, progress, &parameters.settings, |setting| {
         entry(parameters, *setting, &courses, &targets, progress)
     })?;
     Ok(Race { parameters: parameters.clone(), growth, entries })
@@ -89,7 +90,7 @@ fn targets(number: usize, courses: &[Course]) -> Result<Vec<Target>, impact_chai
             let (_, state) = &hits[i * last / wanted];
             let scenario = state.as_scenario(scenario)?;
             let state = State { time: 0.0, ..state.clone() };
-            let mut truth = TrueMotion::of(&scenario, &state);
+            let mut truth = TrueMotion::from_state(&scenario, &state);
             targets.extend(truth.next(LONGEST)?.map(|hit| {
                 let unit = f64::EPSILON * truth.scale(hit.gap) / hit.closing_speed;
                 Target { scenario, state, hit, unit }
@@ -118,7 +119,8 @@ fn entry(
     let (mut misses, mut errors, mut units) = (0, Vec::new(), None);
     for Target { scenario, state, hit, unit } in targets {
         progress.check()?;
-        match method.first((scenario, state, hit.time.to_f64() + PATIENCE)) {
+        let until = hit.time.to_f64() + PATIENCE;
+        match method.first(Task { scenario, start: state, until }) {
             Ok(Some(impact)) if impact.gap == hit.gap => {
                 let error = error(hit, &impact);
                 errors.push(error);
@@ -155,7 +157,8 @@ fn follow(
         left = left.or(other.map(|hit| hit.time.to_f64()));
         (left.is_none() || impact.time < parameters.at_least) && !progress.stopped()
     };
-    let cost = method.run((scenario, &State::of(scenario), parameters.until), &mut compare);
+    let task = Task { scenario, start: &State::from_scenario(scenario), until: parameters.until };
+    let cost = method.run(task, &mut compare);
     // Or at the first impact of the truth that the run did not reach.
     let left = left.or_else(|| truth.next().map(|hit| hit.time.to_f64()));
     (left.unwrap_or(parameters.until), cost.unwrap_or_default())

@@ -2,6 +2,7 @@
 
 use crate::experiments::prelude::*;
 use crate::params::{BENCH, MethodName, ScaleParams, Setting};
+use impact_chain::methods::Task;
 
 /// Method, number of masses n, evaluations per impact: methods in their order, for each n rising.
 pub type Scale = Vec<(Setting, usize, f64)>;
@@ -18,13 +19,14 @@ pub fn run(parameters: &ScaleParams, progress: &Progress) -> Result<Scale, Error
     };
     cases.retain(|(setting, masses)| ours(*setting) || *masses <= parameters.rivals);
     let stage = progress.stage("work against size", cases.len() as u64);
-    each(&stage, progress, cases, |(setting, masses)| {
+    run_each(&stage, progress, cases, |(setting, masses)| {
         let chain = Chain { masses, ..Chain::default() };
-        let mut normals = NormalPairs::new(BENCH.0, BENCH.1, 0);
+        let mut normals = NormalPairs::new(BENCH.0, Seed(BENCH.1), 0);
         let scenario = Scenario::draw(&chain, parameters.sigma, &mut normals);
-        let (start, until) = (State::of(&scenario), until(setting, masses));
+        let (start, until) = (State::from_scenario(&scenario), until(setting, masses));
         let mut go_on = |_| !progress.stopped();
-        let cost = setting.method().run((&scenario, &start, until), &mut go_on);
+        let task = Task { scenario: &scenario, start: &start, until };
+        let cost = setting.method().run(task, &mut go_on);
         progress.check()?;
         let cost = cost.map_err(|source| Error::failed("scale", source))?;
         Ok((setting, masses, cost.evaluations_per_impact().unwrap_or(0.0)))

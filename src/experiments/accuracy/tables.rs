@@ -16,12 +16,12 @@ pub fn in_formulas(name: &str) -> String {
 }
 
 /// Writes the number at the end as a power where it has an exponent: `h = 10^{-4}` for `h = 1e-4`.
-fn power(text: &str) -> String {
-    text.split_once("1e").map_or(text.into(), |(before, e)| format!("{before}10^{{{e}}}"))
+fn power(number: &str) -> String {
+    number.split_once("1e").map_or(number.into(), |(before, e)| format!("{before}10^{{{e}}}"))
 }
 
-/// Returns a method with its steps or tolerances: `sampling, $h = 0.1$; $0.01$`, and its least
-/// rebound speeds.
+/// Returns the title of a method with its steps or tolerances, and then its least rebound speeds:
+/// `sampling, $h = 0.1$; $0.01$`.
 pub fn titled(settings: &[Setting]) -> String {
     let mut title = in_formulas(&settings[0].name());
     for pair in settings.windows(2) {
@@ -95,18 +95,18 @@ impl Compared {
     }
 }
 
-/// Returns what a method and the engine, in the mean of two runs, count in the chains that all ran
-/// to the end, by chain.
+/// Returns the counts of a method and those of the engine (the mean of two runs) for each chain
+/// that all three ran to the end.
 pub fn pairs(run: &[GapCount], ours: [&[GapCount]; 2]) -> Vec<[f64; 2]> {
-    let all = run.iter().zip(ours[0].iter().zip(ours[1]));
+    let counts = run.iter().zip(ours[0].iter().zip(ours[1]));
     let pair = |(theirs, (first, second)): (&GapCount, (&GapCount, &GapCount))| {
         Some([f64::from((*theirs)?), 0.5 * (f64::from((*first)?) + f64::from((*second)?))])
     };
-    all.filter_map(pair).collect()
+    counts.filter_map(pair).collect()
 }
 
-/// Returns the error of the engine's mean, in the mean of two runs, that chaos makes of roundings,
-/// relative to the mean, for so many chains.
+/// Returns the relative error that chaos makes of roundings in the mean count of the engine, for
+/// the mean of two runs of so many chains.
 pub fn own_error(ours: [&[GapCount]; 2], chains: usize) -> f64 {
     let both = pairs(ours[0], [ours[1]; 2]);
     let half: Vec<f64> = both.iter().map(|[first, second]| 0.5 * (first - second)).collect();
@@ -119,18 +119,19 @@ pub fn own_error(ours: [&[GapCount]; 2], chains: usize) -> f64 {
 pub fn compared(biases: &Biases) -> Vec<Compared> {
     let mut rows = Vec::new();
     let again = biases.runs.iter().zip(&biases.again);
-    for (of, (runs, again)) in biases.parameters.means.iter().zip(again) {
-        for (&(setting, _), run) in of.settings.iter().zip(runs).skip(1) {
+    for (means, (runs, again)) in biases.parameters.means.iter().zip(again) {
+        for (&(setting, _), run) in means.settings.iter().zip(runs).skip(1) {
             let ours = [&runs[0][..], again];
             let pairs = pairs(run, ours);
             let share = || {
                 // With few chains all ratios may be equal.
-                let Estimate { value, error, .. } = ratio(&pairs).filter(|of| of.error > 0.0)?;
+                let Estimate { value, error, .. } =
+                    ratio(&pairs).filter(|ratio| ratio.error > 0.0)?;
                 let (value, half) =
                     (value - 1.0, student_quantile(LEVEL, pairs.len() - 1)? * error);
                 Some(Estimate { value, error, interval: [value - half, value + half] })
             };
-            let (sigma, share) = (of.chains.sigma, share());
+            let (sigma, share) = (means.chains.sigma, share());
             let engine = own_error(ours, pairs.len());
             rows.push(Compared { setting, sigma, pairs: pairs.len(), share, engine });
         }
@@ -146,11 +147,11 @@ pub fn bias(biases: &Biases) -> Vec<Table> {
         .computed_by(origin(bias::run))
         .estimate("share", "1", "error of the mean over the mean", |row| row.share)
         .done();
-    let all = biases.runs.iter().zip(&biases.again);
-    let engine = biases.parameters.means.iter().zip(all).map(|(of, (runs, again))| {
+    let runs = biases.runs.iter().zip(&biases.again);
+    let engine = biases.parameters.means.iter().zip(runs).map(|(means, (runs, again))| {
         let ours = [&runs[0][..], again];
         let counts: Vec<f64> = pairs(&runs[0], ours).iter().map(|pair| pair[1]).collect();
-        (of.chains.sigma, counts, own_error(ours, runs[0].len()))
+        (means.chains.sigma, counts, own_error(ours, runs[0].len()))
     });
     let engine: Vec<_> = engine.collect();
     let means = Table::of("bias.means", &engine, |(_, counts, _)| counts.len())

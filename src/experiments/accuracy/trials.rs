@@ -35,7 +35,8 @@ impl TrialParams {
 pub struct Trials {
     pub parameters: TrialParams,
     /// For each scene and each setting, in their order.
-    pub found: Vec<Vec<Trial>>,
+    #[serde(rename = "found")]
+    pub trials: Vec<Vec<Trial>>,
 }
 
 /// The outcomes of one method in each case of a scene.
@@ -48,11 +49,13 @@ const MOST_STEPS: f64 = 2e7;
 /// shorter than the next, is not run in the next case, and counts as failing alike.
 const LONGER: f64 = 5.0;
 
+/// Counts the cases with the expected outcome.
 pub fn right(trial: &Trial) -> usize {
     trial.iter().filter(|outcome| **outcome == Outcome::Right).count()
 }
 
-/// Returns the most frequent wrong outcome; of several the first in the order of [`Outcome`].
+/// Returns the most frequent wrong outcome, of several the first in the order of [`Outcome`], or
+/// `None` if all are right.
 pub fn trouble(trial: &Trial) -> Option<Outcome> {
     let mut wrong = trial.clone();
     wrong.retain(|outcome| *outcome != Outcome::Right);
@@ -67,15 +70,20 @@ pub fn run(parameters: &TrialParams, progress: &Progress) -> Result<Trials, Erro
         settings.chunk_by(|a, b| (a.method, a.value) == (b.method, b.value)).collect();
     let stage = progress.stage("scenes where methods fail", (scenes.len() * alike.len()) as u64);
     let of_scene = |scene: &Scene| {
-        let found = each(&stage, progress, &alike, |settings| trials(settings, scene, progress))?;
-        Ok(found.concat())
+        let trials =
+            run_each(&stage, progress, &alike, |settings| try_settings(settings, scene, progress))?;
+        Ok(trials.concat())
     };
-    let found = scenes.par_iter().map(of_scene).collect::<Result<_, Error>>()?;
-    Ok(Trials { parameters: parameters.clone(), found })
+    let trials = scenes.par_iter().map(of_scene).collect::<Result<_, Error>>()?;
+    Ok(Trials { parameters: parameters.clone(), trials })
 }
 
 /// Tries a setting and the same with least rebound speeds, which follow it, in a scene.
-fn trials(settings: &[Setting], scene: &Scene, progress: &Progress) -> Result<Vec<Trial>, Error> {
+fn try_settings(
+    settings: &[Setting],
+    scene: &Scene,
+    progress: &Progress,
+) -> Result<Vec<Trial>, Error> {
     let mut trials = vec![Trial::new(); settings.len()];
     for (i, case) in scene.cases.iter().enumerate() {
         let longer = i > 0 && case.length() > LONGER * scene.cases[i - 1].length();
@@ -83,7 +91,7 @@ fn trials(settings: &[Setting], scene: &Scene, progress: &Progress) -> Result<Ve
         let mut bouncing = (Outcome::GaveUp, 0.0);
         for (setting, trial) in settings.iter().zip(&mut trials) {
             progress.check()?;
-            let found = match trial.last() {
+            let run = match trial.last() {
                 Some(Outcome::GaveUp) if setting.stop == 0.0 => (Outcome::GaveUp, 0.0),
                 Some(Outcome::Missed) if longer => (Outcome::Missed, 0.0),
                 // A run in which every gap opened faster is the same with a least rebound speed.
@@ -91,14 +99,15 @@ fn trials(settings: &[Setting], scene: &Scene, progress: &Progress) -> Result<Ve
                 _ => outcome(*setting, case),
             };
             if setting.stop == 0.0 {
-                bouncing = found;
+                bouncing = run;
             }
-            trial.push(found.0);
+            trial.push(run.0);
         }
     }
     Ok(trials)
 }
 
+/// Runs a case, and returns its outcome and the least speed at which a gap opened by the law.
 fn outcome(setting: Setting, case: &Case) -> (Outcome, f64) {
     let steps = case.length() / setting.value;
     if setting.value > 0.0 && !setting.method.has_tolerance() && steps > MOST_STEPS {
@@ -119,8 +128,8 @@ mod tests {
         let held = scenes.iter().find(|scene| scene.id == "held").unwrap();
         for method in MethodName::ALL.into_iter().filter(|method| method.locates_impacts()) {
             let settings = [0.0, 1e-3].map(|stop| Setting { method, value: 1e-2, stop });
-            let found = trials(&settings, held, &Progress::silent()).unwrap();
-            assert_eq!(found, [[Outcome::GaveUp; 2], [Outcome::Right; 2]]);
+            let trials = try_settings(&settings, held, &Progress::silent()).unwrap();
+            assert_eq!(trials, [[Outcome::GaveUp; 2], [Outcome::Right; 2]]);
         }
     }
 
@@ -132,7 +141,7 @@ mod tests {
         let [mut seen, missed] = [0, 12].map(|i| grazes.cases[i].clone());
         seen.until += 10.0 * missed.length();
         grazes.cases = vec![seen.clone(), missed, seen];
-        let found = trials(&[setting], &grazes, &Progress::silent()).unwrap();
-        assert_eq!(found, [[Outcome::Right, Outcome::Missed, Outcome::Missed]]);
+        let trials = try_settings(&[setting], &grazes, &Progress::silent()).unwrap();
+        assert_eq!(trials, [[Outcome::Right, Outcome::Missed, Outcome::Missed]]);
     }
 }

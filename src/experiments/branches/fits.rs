@@ -36,9 +36,10 @@ pub(super) struct Fit {
 
 impl Law {
     /// Fits amplitude and limit for one exponent to points: ln u, distance and weight.
-    fn at(self, exponent: f64, points: &[[f64; 3]]) -> Fit {
-        let sum = |of: &dyn Fn(f64, f64) -> f64| {
-            let term = |[log, y, weight]: &[f64; 3]| weight * of(pxfm::f_exp(-exponent * log), *y);
+    fn fit_amplitude(self, exponent: f64, points: &[[f64; 3]]) -> Fit {
+        let sum = |factor: &dyn Fn(f64, f64) -> f64| {
+            let term =
+                |[log, y, weight]: &[f64; 3]| weight * factor(pxfm::f_exp(-exponent * log), *y);
             points.iter().map(term).sum::<f64>()
         };
         let [one, x, y] = [sum(&|_, _| 1.0), sum(&|x, _| x), sum(&|_, y| y)];
@@ -52,25 +53,27 @@ impl Law {
 
     /// Fits the exponent too, from about 1/20 to 20, by ever finer steps of its logarithm.
     pub fn fit(self, points: &[[f64; 3]]) -> Option<Fit> {
-        let at = |log: f64| self.at(pxfm::f_exp(log), points);
+        let fit = |log: f64| self.fit_amplitude(pxfm::f_exp(log), points);
         let (mut centre, mut half): (f64, f64) = (0.0, 3.0);
         for _ in 0..9 {
             let places = (-20..=20).map(|step| centre + half * f64::from(step) / 20.0);
-            centre = places.min_by(|a, b| at(*a).misfit.total_cmp(&at(*b).misfit))?;
+            centre = places.min_by(|a, b| fit(*a).misfit.total_cmp(&fit(*b).misfit))?;
             half /= 10.0;
         }
-        (points.len() >= 2 + usize::from(self.limited)).then(|| at(centre))
+        (points.len() >= 2 + usize::from(self.limited)).then(|| fit(centre))
     }
 
-    /// Estimates a number of the fit to the distances of one length; none if one has no error.
-    pub fn estimate(self, pairs: &[Pair], of: fn(&Fit) -> f64) -> Option<Estimate> {
-        let weight = |pair: &Pair| pair.estimate(distance).map(|of| 1.0 / (of.error * of.error));
+    /// Estimates a number of the fit to the distances of one length, or returns `None` if a
+    /// distance has no error.
+    pub fn estimate(self, pairs: &[Pair], number: fn(&Fit) -> f64) -> Option<Estimate> {
+        let weight = |pair: &Pair| pair.estimate(distance).map(|own| 1.0 / (own.error * own.error));
         let weights = pairs.iter().map(weight).collect::<Option<Vec<f64>>>()?;
         pairs[0].estimate(|first, without| {
             let log = |pair: &Pair| (self.scale)(pair.transient) - (self.scale)(first.transient);
             let point = |(pair, weight)| Some([log(pair), distance(pair, without)?, weight]);
             let points = pairs.iter().zip(weights.iter().copied()).map(point);
-            Some(of(&self.fit(&points.collect::<Option<Vec<_>>>()?)?)).filter(|of| of.is_finite())
+            let fit = self.fit(&points.collect::<Option<Vec<_>>>()?)?;
+            Some(number(&fit)).filter(|number| number.is_finite())
         })
     }
 }
@@ -87,7 +90,7 @@ mod tests {
         let own = [0.07, 0.12, 0.08, 0.15, 0.1];
         let (mean, error) = (0.104, standard_error(&own).unwrap());
         for law in LAWS {
-            let at = |time: f64| {
+            let pair_after = |time: f64| {
                 let u: f64 = if law.name.starts_with("logarithm") {
                     pxfm::f_log(time) / pxfm::f_log(4.0)
                 } else {
@@ -97,11 +100,11 @@ mod tests {
                 let y = |own: f64| limit * own + (limit * 0.2 + factor * own) / u.sqrt();
                 pair(time, &own.map(|own| 0.3 + y(own)), &[0.3; 5])
             };
-            let pairs = [4.0, 16.0, 64.0, 256.0].map(at);
-            let near = |of: fn(&Fit) -> f64, value: f64, error: f64| {
-                let found = law.estimate(&pairs, of).unwrap();
-                let off = (found.value - value).abs().max((found.error - error).abs());
-                assert!(off < 1e-6, "{}: {found:?}", law.name);
+            let pairs = [4.0, 16.0, 64.0, 256.0].map(pair_after);
+            let near = |number: fn(&Fit) -> f64, value: f64, error: f64| {
+                let fitted = law.estimate(&pairs, number).unwrap();
+                let off = (fitted.value - value).abs().max((fitted.error - error).abs());
+                assert!(off < 1e-6, "{}: {fitted:?}", law.name);
             };
             near(|fit| fit.exponent, 0.5, 0.0);
             let known = if law.limited { [0.2, 0.0, mean, error] } else { [mean, error, 0.0, 0.0] };
@@ -115,8 +118,9 @@ mod tests {
     fn a_distance_off_by_its_error_adds_one_to_the_misfit() {
         // The first two times, with next to no error, fix a power; the third lies above it.
         let own = |half: f64| [0.1 - half, 0.1 + half];
-        let at = |time, place: f64, half| pair(time, &own(half).map(|own| place + own), &[0.1; 2]);
-        let pairs = [at(1.0, 0.4, 1e-6), at(4.0, 0.2, 1e-6), at(16.0, 0.13, 0.03)];
+        let pair_at =
+            |time, place: f64, half| pair(time, &own(half).map(|own| place + own), &[0.1; 2]);
+        let pairs = [pair_at(1.0, 0.4, 1e-6), pair_at(4.0, 0.2, 1e-6), pair_at(16.0, 0.13, 0.03)];
         let misfit = LAWS[0].estimate(&pairs, |fit| fit.misfit).unwrap().value;
         assert!((misfit - 1.0).abs() < 1e-3, "{misfit}");
     }

@@ -14,15 +14,15 @@ use impact_numerics::statistics::{last_rise, mean};
 pub(super) struct Branch {
     /// The σ that were run so long, rising.
     pub sigmas: Vec<f64>,
-    /// For each of them the share in each chain; none if its run was not complete.
+    /// For each of them the share in each chain, or `None` if its run was not complete.
     shares: Vec<Vec<Option<f64>>>,
 }
 
 impl Branch {
     /// Collects the shares of chains of one length, with or without heating.
-    fn new(found: &[Chains], masses: usize, heated: bool, transient: f64) -> Branch {
+    fn new(chains: &[Chains], masses: usize, heated: bool, transient: f64) -> Branch {
         let mut rows = Vec::new();
-        for Chains { ensemble, counts } in found {
+        for Chains { ensemble, counts } in chains {
             if ensemble.chain.masses != masses || ensemble.heating.is_some() != heated {
                 continue;
             }
@@ -43,15 +43,15 @@ impl Branch {
         self.shares.iter().map(Vec::len).min().unwrap_or(0)
     }
 
-    /// Returns the mean share at a σ over all chains but one; none where no chain was run.
+    /// Returns the mean share at a σ over all chains but one, or `None` where no chain was run.
     pub fn share(&self, sigma: f64, without: Option<usize>) -> Option<f64> {
-        let place = self.sigmas.iter().position(|at| *at == sigma)?;
+        let place = self.sigmas.iter().position(|other| *other == sigma)?;
         let chains = self.shares[place].iter().enumerate();
         let used = chains.filter(|(chain, _)| Some(*chain) != without);
         mean(&used.filter_map(|(_, share)| *share).collect::<Vec<_>>())
     }
 
-    /// Returns the half height of the mean over all chains but one.
+    /// Returns the half height of the mean over all chains but one, or `None` if it is not passed.
     pub fn half_height(&self, without: Option<usize>) -> Option<f64> {
         let shares = self.sigmas.iter().map(|sigma| self.share(*sigma, without));
         last_rise(&self.sigmas, &shares.collect::<Vec<_>>(), 0.5)
@@ -93,15 +93,16 @@ pub(super) fn distance(pair: &Pair, without: Option<usize>) -> Option<f64> {
 }
 
 impl Pair {
-    pub fn all(found: &[Chains]) -> Vec<Pair> {
+    /// Lists the pairs of branches by length and transient.
+    pub fn collect(chains: &[Chains]) -> Vec<Pair> {
         let mut keys: Vec<(usize, f64)> = Vec::new();
-        for Chains { ensemble, .. } in found {
+        for Chains { ensemble, .. } in chains {
             let masses = ensemble.chain.masses;
             keys.extend(ensemble.protocols.iter().map(|window| (masses, window.transient)));
         }
         keys.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
         keys.dedup();
-        let branch = |(masses, transient), heated| Branch::new(found, masses, heated, transient);
+        let branch = |(masses, transient), heated| Branch::new(chains, masses, heated, transient);
         let pair = |key: (usize, f64)| Pair {
             masses: key.0,
             transient: key.1,
@@ -115,18 +116,22 @@ impl Pair {
         self.rest.chains().min(self.above.chains())
     }
 
-    pub fn estimate(&self, of: impl Fn(&Pair, Option<usize>) -> Option<f64>) -> Option<Estimate> {
-        jackknife(self.chains(), |without| of(self, without))
+    /// Estimates a quantity with its jackknife error over chains.
+    pub fn estimate(
+        &self,
+        quantity: impl Fn(&Pair, Option<usize>) -> Option<f64>,
+    ) -> Option<Estimate> {
+        jackknife(self.chains(), |without| quantity(self, without))
     }
 
     /// Estimates by how much a quantity exceeds that of another pair of the same chains.
     pub fn estimate_less(
         &self,
         other: &Pair,
-        of: impl Fn(&Pair, Option<usize>) -> Option<f64>,
+        quantity: impl Fn(&Pair, Option<usize>) -> Option<f64>,
     ) -> Option<Estimate> {
         jackknife(self.chains().min(other.chains()), |without| {
-            Some(of(self, without)? - of(other, without)?)
+            Some(quantity(self, without)? - quantity(other, without)?)
         })
     }
 }
@@ -140,8 +145,8 @@ pub(super) mod tests {
     /// Chains whose share rises from 0 to 1 over an interval of σ around a place of each chain.
     fn made_up(places: &[f64]) -> Branch {
         let sigmas = vec![0.0, 1.0];
-        let at = |sigma: f64| places.iter().map(|place| Some(0.5 + sigma - place)).collect();
-        Branch { shares: sigmas.iter().map(|sigma| at(*sigma)).collect(), sigmas }
+        let shares = |sigma: f64| places.iter().map(|place| Some(0.5 + sigma - place)).collect();
+        Branch { shares: sigmas.iter().map(|sigma| shares(*sigma)).collect(), sigmas }
     }
 
     pub fn pair(transient: f64, rest: &[f64], above: &[f64]) -> Pair {
@@ -151,7 +156,7 @@ pub(super) mod tests {
     /// Places on both branches: a shared part, with a standard deviation of 0.06, and parts with
     /// 0.03 and 0.04. The distance of the half heights then has the error 0.05/√12.
     fn drawn(index: u64) -> [Vec<f64>; 2] {
-        let mut normals = NormalPairs::new("test of branches", 1, index);
+        let mut normals = NormalPairs::new("test of branches", Seed(1), index);
         let mut places = [Vec::new(), Vec::new()];
         for _ in 0..CHAINS {
             let ([both, _], [rest, above]) = (normals.pair(), normals.pair());
@@ -190,7 +195,7 @@ pub(super) mod tests {
         // Chains differ much, and all change by the same.
         let (first, later) = ([0.1, 0.5, 0.9], [0.2, 0.6, 1.0]);
         let (first, later) = (pair(1.0, &first, &first), pair(2.0, &later, &first));
-        let found = later.estimate_less(&first, FROM_REST).unwrap();
-        assert!((found.value - 0.1).abs() < 1e-12 && found.error < 1e-12, "{found:?}");
+        let change = later.estimate_less(&first, FROM_REST).unwrap();
+        assert!((change.value - 0.1).abs() < 1e-12 && change.error < 1e-12, "{change:?}");
     }
 }

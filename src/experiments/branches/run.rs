@@ -10,14 +10,15 @@ use literate::experiments::cutting::Cutting;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Chains {
     pub ensemble: Ensemble,
-    /// For each σ and each window, the active gaps of each chain; none if its run was not complete.
+    /// For each σ and each window, the active gaps of each chain, or `None` if its run was not
+    /// complete.
     pub counts: Vec<Vec<Vec<Option<u32>>>>,
 }
 
 pub const CUTTING: Cutting<Vec<Ensemble>, Counts, Vec<Chains>> = Cutting { rows, part, join };
 
 fn join(
-    all: &Vec<Ensemble>,
+    ensembles: &Vec<Ensemble>,
     parts: Vec<Vec<Counts>>,
     progress: &Progress,
 ) -> Result<Vec<Chains>, Error> {
@@ -26,5 +27,5 @@ fn join(
         let counts = counts.into_iter().map(|counts| counts.distinct).collect();
         Chains { ensemble, counts }
     };
-    Ok(joined(all, parts).map(chains).collect())
+    Ok(joined(ensembles, parts).map(chains).collect())
 }

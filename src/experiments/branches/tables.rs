@@ -5,15 +5,15 @@ use super::pairs::{Branch, FROM_ABOVE, FROM_REST, Pair, distance};
 use super::run::Chains;
 use crate::experiments::prelude::*;
 
-pub fn tables(found: &Vec<Chains>) -> Vec<Table> {
-    let pairs = Pair::all(found);
+pub fn tables(chains: &Vec<Chains>) -> Vec<Table> {
+    let pairs = Pair::collect(chains);
     let lengths: Vec<&[Pair]> = pairs.chunk_by(|a, b| a.masses == b.masses).collect();
     vec![
         half_heights(&lengths),
         fits(&lengths),
         compared_lengths(&lengths),
         shares(&pairs),
-        all(found, &pairs),
+        all(chains, &pairs),
     ]
 }
 
@@ -29,7 +29,9 @@ fn half_heights(lengths: &[&[Pair]]) -> Table {
     let mut rows: Vec<(&Pair, Option<&Pair>, &Pair)> = Vec::new();
     for pairs in lengths {
         let before = [None].into_iter().chain(pairs.iter().map(Some));
-        rows.extend(pairs.iter().zip(before).map(|(pair, at)| (pair, at, &pairs[pairs.len() - 1])));
+        rows.extend(
+            pairs.iter().zip(before).map(|(pair, last)| (pair, last, &pairs[pairs.len() - 1])),
+        );
     }
     Table::of("branches.half_heights", &rows, |row| row.0.chains())
         .key("masses", "1", |row| row.0.masses as f64)
@@ -44,9 +46,11 @@ fn half_heights(lengths: &[&[Pair]]) -> Table {
         .chosen("above_low", SIGMA, LOW, |row| Some(row.0.above.neighbours()?[0]))
         .chosen("above_high", SIGMA, HIGH, |row| Some(row.0.above.neighbours()?[1]))
         .computed_by(origin(Branch::coarser))
-        .estimate("rest_coarser", SIGMA, COARSER, |row| row.0.estimate(|at, i| at.rest.coarser(i)))
+        .estimate("rest_coarser", SIGMA, COARSER, |row| {
+            row.0.estimate(|pair, without| pair.rest.coarser(without))
+        })
         .estimate("above_coarser", SIGMA, COARSER, |row| {
-            row.0.estimate(|at, i| at.above.coarser(i))
+            row.0.estimate(|pair, without| pair.above.coarser(without))
         })
         .computed_by(origin(distance))
         .estimate("distance", SIGMA, DISTANCE, |row| row.0.estimate(distance))
@@ -74,7 +78,8 @@ fn fits(lengths: &[&[Pair]]) -> Table {
         .done()
 }
 
-/// Makes the table of the shorter chains less the longer ones, which begin with the same forces.
+/// Makes the table of half heights of the shorter chains less those of the longer ones, which begin
+/// with the same forces.
 fn compared_lengths(lengths: &[&[Pair]]) -> Table {
     const LESS: &str = "that of the shorter chains less that of the longer ones";
     let mut rows: Vec<(&Pair, &Pair)> = Vec::new();
@@ -121,9 +126,9 @@ fn shares(pairs: &[Pair]) -> Table {
         .done()
 }
 
-fn all(found: &[Chains], pairs: &[Pair]) -> Table {
-    let heated = found.iter().find_map(|one| one.ensemble.heating);
-    let above = found.iter().filter(|one| one.ensemble.heating.is_some());
+fn all(ensembles: &[Chains], pairs: &[Pair]) -> Table {
+    let heated = ensembles.iter().find_map(|one| one.ensemble.heating);
+    let above = ensembles.iter().filter(|one| one.ensemble.heating.is_some());
     let counts = above.flat_map(|one| one.counts.iter().flatten().flatten());
     let silent = counts.filter(|count| **count == Some(0)).count();
     let chains = pairs.iter().map(Pair::chains).min().unwrap_or(0);

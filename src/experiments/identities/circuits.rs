@@ -80,25 +80,41 @@ pub(super) fn eq38(census: &Census, from: usize) -> Cases {
         (from..=n).take_while(move |k| k + 3 <= longest).map(move |k| (n, k))
     };
     cases((1..).zip(LONGEST).flat_map(lengths).map(|(n, k)| {
-        let found = CLASSES.map(|one| counted(census, n, k + one.excess(), one.repeats) as f64);
+        let counted = CLASSES.map(|one| counted(census, n, k + one.excess(), one.repeats) as f64);
         let printed = CLASSES.map(|one| (one.printed)(n, k + one.excess()));
-        printed.into_iter().sum::<Option<f64>>() == Some(found.into_iter().sum())
+        printed.into_iter().sum::<Option<f64>>() == Some(counted.into_iter().sum())
     }))
 }
 
-/// Returns for each printed formula of a class its equation, the length from which on it is right,
-/// the cases from there on, and what it gives and enumeration finds one below, on three vertices.
-pub(super) fn class_ranges(census: &Census) -> Vec<(f64, usize, Cases, Option<f64>, u128)> {
+/// Where the printed formula of a class of circuits holds.
+pub(super) struct ClassRange {
+    pub equation: f64,
+    /// The length from which on it is right.
+    pub right_from: usize,
+    /// The comparisons from that length on.
+    pub cases: Cases,
+    /// On three vertices, for the length before: the formula, and the number of circuits.
+    pub formula_below: Option<f64>,
+    pub counted_below: u128,
+}
+
+/// Compares the printed formula of each class with the enumeration.
+pub(super) fn class_ranges(census: &Census) -> Vec<ClassRange> {
     let range = |class: &Class| {
         let agrees = |&(n, k): &(usize, usize)| {
             (class.printed)(n, k) == Some(counted(census, n, k, class.repeats) as f64)
         };
         let possible: Vec<(usize, usize)> =
             enumerated().filter(|&(n, k)| class.different(k).is_some_and(|d| d <= n)).collect();
-        let below = possible.iter().filter(|at| !agrees(at)).map(|at| at.1).max().unwrap_or(0);
-        let cases = cases(possible.iter().filter(|at| at.1 > below).map(agrees));
-        let counted = counted(census, 3, below, class.repeats);
-        (class.equation.into(), below + 1, cases, (class.printed)(3, below), counted)
+        let below =
+            possible.iter().filter(|size| !agrees(size)).map(|size| size.1).max().unwrap_or(0);
+        ClassRange {
+            equation: class.equation.into(),
+            right_from: below + 1,
+            cases: cases(possible.iter().filter(|size| size.1 > below).map(agrees)),
+            formula_below: (class.printed)(3, below),
+            counted_below: counted(census, 3, below, class.repeats),
+        }
     };
     CLASSES[1..].iter().map(range).collect()
 }

@@ -32,7 +32,7 @@ pub fn tables() -> Vec<Table> {
     let cases = Table::of("theory.cases", &rows, |_| 0)
         .computed_by(origin(tables))
         .text_key("statement", |(id, _)| (*id).into())
-        .count("compared", "cases that were compared", |(_, [all, _])| *all)
+        .count("compared", "cases that were compared", |(_, [compared, _])| *compared)
         .count("failed", "cases that do not agree", |(_, [_, failed])| *failed)
         .done();
     let rows: [(&str, f64); 5] = [
@@ -49,12 +49,16 @@ pub fn tables() -> Vec<Table> {
         .done();
     let ranges = Table::of("theory.class_ranges", &circuits::class_ranges(&census), |_| 0)
         .computed_by(origin(circuits::class_ranges))
-        .key("equation", "1", |row| row.0)
-        .count("right_from", "the length from which on it is right", |row| row.1 as u64)
-        .count("compared", "cases from that length on", |row| row.2[0])
-        .count("failed", "of these", |row| row.2[1])
-        .real("formula_below", "1", 2, "one length below, on three vertices", |row| row.3)
-        .count("counted_below", "the circuits there", |row| row.4 as u64)
+        .key("equation", "1", |range| range.equation)
+        .count("right_from", "the length from which on it is right", |range| {
+            range.right_from as u64
+        })
+        .count("compared", "cases from that length on", |range| range.cases[0])
+        .count("failed", "of these", |range| range.cases[1])
+        .real("formula_below", "1", 2, "one length below, on three vertices", |range| {
+            range.formula_below
+        })
+        .count("counted_below", "the circuits there", |range| range.counted_below as u64)
         .done();
     vec![cases, differences, ranges]
 }

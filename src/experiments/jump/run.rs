@@ -16,9 +16,9 @@ pub const CUTTING: Cutting<Vec<Ensemble>, Counts, Jumps> = Cutting { rows, part,
 pub struct Jumps {
     pub ensembles: Vec<Ensemble>,
     pub windows: Vec<WindowJump>,
-    /// What was found on rings with our protocol.
+    /// The jump on rings with our protocol.
     pub ring: WindowJump,
-    /// The place with our protocol when the bulk is smoothed over so many numbers on both sides.
+    /// For several half widths of the smoothing of the bulk, the place with our protocol.
     pub widths: Vec<(usize, Option<Estimate>)>,
 }
 
@@ -36,7 +36,7 @@ impl WindowJump {
     }
 }
 
-/// Numbers on both sides over which the bulk is smoothed, and others that must give the same.
+/// Half widths over which the bulk is smoothed: ours, and those that must give the same place.
 const HALF_WIDTH: usize = 6;
 const HALF_WIDTHS: [usize; 4] = [3, 6, 9, 12];
 
@@ -45,7 +45,7 @@ impl Jumps {
         self.ensembles.first().map_or(0, |ensemble| ensemble.chain.gaps())
     }
 
-    /// Returns what was found in a window, or `None` if there is no such window.
+    /// Returns the jump in a window, or `None` if the window was not counted.
     pub fn window(&self, protocol: Protocol) -> Option<&WindowJump> {
         self.windows.iter().find(|window| window.protocol == protocol)
     }
@@ -59,16 +59,16 @@ fn join(
     let (rings, walls): (Vec<Counted>, Vec<Counted>) =
         joined(ensembles, parts).partition(|(one, _)| one.chain.boundary == Boundary::Ring);
     let protocols = ensembles.first().map_or(&[][..], |ensemble| &ensemble.protocols);
-    let samples = |window: usize| samples(&walls, window);
+    let samples = |window: usize| samples_of(&walls, window);
     let gaps = ensembles.first().map_or(0, |ensemble| ensemble.chain.gaps());
     let window = |(window, &protocol): (usize, &Protocol)| {
         progress.check()?;
-        Ok(found(protocol, &samples(window), gaps))
+        Ok(window_jump(protocol, &samples(window), gaps))
     };
     let windows = protocols.par_iter().enumerate().with_max_len(1).map(window);
     let windows = windows.collect::<Result<Vec<_>, Error>>()?;
     let ring_gaps = rings.first().map_or(0, |(ensemble, _)| ensemble.chain.gaps());
-    let ring = found(Protocol::default(), &self::samples(&rings, 0), ring_gaps);
+    let ring = window_jump(Protocol::default(), &samples_of(&rings, 0), ring_gaps);
     let ours = protocols.iter().position(|protocol| *protocol == Protocol::default());
     let place = |half_width: usize| {
         let jump = ours.map(|window| mode_jump(&samples(window), Histogram { gaps, half_width }));
@@ -78,7 +78,8 @@ fn join(
     Ok(Jumps { ensembles: ensembles.clone(), windows, ring, widths })
 }
 
-fn found(protocol: Protocol, samples: &[Sample<'_>], gaps: usize) -> WindowJump {
+/// Finds the jump of the mode in a window.
+fn window_jump(protocol: Protocol, samples: &[Sample<'_>], gaps: usize) -> WindowJump {
     let histogram = |sample: &Sample<'_>| {
         let mut histogram = vec![0; gaps + 1];
         sample.counts.iter().flatten().for_each(|&k| histogram[k as usize] += 1);
@@ -90,7 +91,7 @@ fn found(protocol: Protocol, samples: &[Sample<'_>], gaps: usize) -> WindowJump 
 }
 
 /// Returns the counts of a window at each σ.
-fn samples(counted: &[Counted], window: usize) -> Vec<Sample<'_>> {
+fn samples_of(counted: &[Counted], window: usize) -> Vec<Sample<'_>> {
     let mut samples = Vec::new();
     for (ensemble, counts) in counted {
         samples.push(Sample {

@@ -129,7 +129,7 @@ const BEFORE_AND_AFTER: f64 = 0.00625;
 fn distributions(window: &WindowJump) -> Table {
     let both: Vec<_> = window.jump.rows.iter().zip(&window.histograms).collect();
     let nearest = |sigma: f64| {
-        let off = |at: &usize| (both[*at].0.sigma - sigma).abs();
+        let off = |row: &usize| (both[*row].0.sigma - sigma).abs();
         (0..both.len()).min_by(|a, b| off(a).total_cmp(&off(b)))
     };
     let places = window.jump.all_gaps.sigma.into_iter().flat_map(|jump| {
@@ -138,7 +138,7 @@ fn distributions(window: &WindowJump) -> Table {
     let mut chosen: Vec<usize> = places.filter_map(nearest).collect();
     chosen.dedup();
     let mut rows = Vec::new();
-    for (row, histogram) in chosen.into_iter().map(|at| both[at]) {
+    for (row, histogram) in chosen.into_iter().map(|row| both[row]) {
         let shares = histogram.iter().enumerate().skip(1);
         rows.extend(shares.map(|(k, count)| (row, k, f64::from(*count) / row.chains)));
     }

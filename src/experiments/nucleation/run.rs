@@ -2,7 +2,7 @@
 
 use crate::experiments::prelude::*;
 use crate::params::{NucleationParams, Runs};
-use impact_circuits::nucleation::{ANGLES, COARSE, Chances, Reach, half};
+use impact_circuits::nucleation::{ANGLES, COARSE, Chances, Reach, sigma_of_half};
 use rayon::prelude::*;
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -27,18 +27,18 @@ pub struct Gaps {
 
 pub fn run(parameters: &NucleationParams, progress: &Progress) -> Result<Nucleation, Error> {
     let stage = progress.stage("first impacts", parameters.chains());
-    let of = |runs: Runs| {
-        each(&stage, progress, 0..runs.realisations as u64, |index| {
+    let first_impacts = |runs: Runs| {
+        run_each(&stage, progress, 0..runs.realisations as u64, |index| {
             let impact = Engine::new(&runs.scenario(index))
                 .and_then(|mut engine| engine.next_impact(runs.until))
                 .map_err(|source| Error::failed("nucleation", source))?;
             Ok(impact.map(|impact| impact.time))
         })
     };
-    let rows = parameters.runs().map(of).collect::<Result<_, _>>()?;
+    let rows = parameters.runs().map(first_impacts).collect::<Result<_, _>>()?;
     let chain = &Chain::default();
-    let reaches = Reach::within(chain, &parameters.times, ANGLES);
-    let ever = Reach::ever(chain, COARSE);
+    let reaches = Reach::within_times(chain, &parameters.times, ANGLES);
+    let ever = Reach::in_unlimited_time(chain, COARSE);
     let gaps = |&sigma: &f64| {
         let within = reaches.iter().map(|reach| Chances::new(chain, reach, sigma)).collect();
         Gaps { sigma, within, ever: Chances::new(chain, &ever, sigma) }
@@ -49,5 +49,5 @@ pub fn run(parameters: &NucleationParams, progress: &Progress) -> Result<Nucleat
     });
     let gaps = parameters.sigmas.par_iter().map(gaps).collect();
     let parameters = parameters.clone();
-    Ok(Nucleation { parameters, rows, gaps, curve, half: half(chain, &ever) })
+    Ok(Nucleation { parameters, rows, gaps, curve, half: sigma_of_half(chain, &ever) })
 }

@@ -14,11 +14,11 @@ struct Chains {
     expected: f64,
 }
 
-pub fn tables(found: &Nucleation) -> Vec<Table> {
-    let (parameters, gaps) = (&found.parameters, &found.gaps);
+pub fn tables(nucleation: &Nucleation) -> Vec<Table> {
+    let (parameters, gaps) = (&nucleation.parameters, &nucleation.gaps);
     let mut chains = Vec::new();
-    for ((runs, firsts), at) in parameters.runs().zip(&found.rows).zip(gaps.iter().cycle()) {
-        for (&time, chances) in parameters.times.iter().zip(&at.within) {
+    for ((runs, firsts), gaps) in parameters.runs().zip(&nucleation.rows).zip(gaps.iter().cycle()) {
+        for (&time, chances) in parameters.times.iter().zip(&gaps.within) {
             let hit = firsts.iter().flatten().filter(|first| **first <= time).count() as u64;
             let (masses, sigma, ran) = (runs.chain.masses, runs.sigma, firsts.len() as u64);
             let expected = chances.at_least_one(masses, runs.chain.boundary);
@@ -28,10 +28,10 @@ pub fn tables(found: &Nucleation) -> Vec<Table> {
     let lengths: Vec<usize> = parameters.lengths.iter().map(|(masses, _)| *masses).collect();
     vec![
         single(gaps),
-        shares(&lengths, &found.curve),
+        shares(&lengths, &nucleation.curve),
         times(&parameters.times, gaps),
         chains_table(&chains),
-        all(&chains, &lengths, found.half),
+        all(&chains, &lengths, nucleation.half),
     ]
 }
 

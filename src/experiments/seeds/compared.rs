@@ -7,17 +7,17 @@ use crate::experiments::{PROTOCOL, SEEDS, SWEEP};
 const OFF: &str =
     "root mean square distance of the predicted mean counts from the simulated ones, in gaps";
 
-/// Returns the mean count of all chains at a σ; none where the runs were shorter.
+/// Returns the mean count of all chains at a σ, or `None` where the runs were shorter.
 fn mean(cell: &Curve, sigma: f64) -> Option<f64> {
     Some(cell.rows.iter().find(|row| row.sigma == sigma)?.mean_all?.value)
 }
 
-pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
-    let table = |name: &str| all.iter().find(|table| table.name() == name);
+pub fn tables(results: &Results, computed: &[Table]) -> Option<Vec<Table>> {
+    let table = |name: &str| computed.iter().find(|table| table.name() == name);
     let (means, rise) = (table("seeds.means")?, table("seeds.rise")?);
     let theory = table("theory.curve")?;
     let seeds = &results.of(&SEEDS).ok()?.parameters;
-    let map = named(results.of(&PROTOCOL).ok()?, "protocol")?;
+    let map = find_ensemble(results.of(&PROTOCOL).ok()?, "protocol")?;
     let window = seeds.window as f64 * seeds.bin;
     let transients = rise.distinct("transient").ok()?.into_iter();
     let cells: Vec<&Curve> = transients.filter_map(|time| map.curve(time, window)).collect();
@@ -28,8 +28,8 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
         root_mean_square(&means.collect::<Vec<_>>(), predicted)
     };
     let after = |transient: f64, column| {
-        let found = rise.series(&[("transient", transient)], "transient", column).ok()?;
-        Some(found.first()?.1)
+        let row = rise.series(&[("transient", transient)], "transient", column).ok()?;
+        Some(row.first()?.1)
     };
     let column = |name| theory.curve(&[], "sigma", name).ok();
     let (simple, rest) = (column("simple")?, column("rest")?);
@@ -49,7 +49,7 @@ pub fn tables(results: &Results, all: &[Table]) -> Option<Vec<Table>> {
         .done();
     // With the protocol of the main sweep.
     let transient = table("sweep.run")?.number(&[], "transient").ok()?;
-    let swept = named(results.of(&SWEEP).ok()?, SWEEP.name).and_then(half_height_all);
+    let swept = find_ensemble(results.of(&SWEEP).ok()?, SWEEP.name).and_then(half_height_all);
     let later = |column| Some(difference(swept?, after(transient, column)?));
     let compared = Table::of("seeds.compared", &[()], |()| seeds.realisations)
         .count("sigmas", "values of σ that seeds and map have", |()| sigmas.len() as u64)

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 /// One run, in time since its first impact.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Trace {
-    /// The gap that closes by itself; none if it had not closed when the wait ended.
+    /// The gap that closes by itself, or `None` if it had not closed when the wait ended.
     pub(super) seed: Option<usize>,
     /// For each gap the bins in which it was hit, as bits.
     pub(super) hits: Vec<u64>,
@@ -15,7 +15,7 @@ pub struct Trace {
     pub(super) firsts: Vec<Option<u32>>,
 }
 
-/// Runs at one σ; none where the engine gave up.
+/// Runs at one σ; `None` where the engine gave up.
 pub type Part = Vec<Option<Trace>>;
 
 /// Counts of impacts by distance from the seed, over runs at one σ.
@@ -23,19 +23,20 @@ pub type Part = Vec<Option<Trace>>;
 pub struct ByDistance {
     /// Gaps at each distance from a seed, to both sides.
     pub places: Vec<u64>,
-    /// For the end of each bin, from none on, those that were hit by then, by distance.
+    /// Gaps hit before each bin, and last before the end of the run, by distance.
     pub reached: Vec<Vec<u64>>,
-    /// For each window that fits in, by its first bin, those that were hit in it, by distance.
+    /// Gaps hit in each window that fits into the run, by its first bin, by distance.
     pub active: Vec<Vec<u64>>,
 }
 
-/// Returns the runs of which the seed closed, with it.
-pub(super) fn ran(traces: &[Option<Trace>]) -> impl Iterator<Item = (usize, &Trace)> {
+/// Lists the runs whose seed closed, each with the gap of its seed.
+pub(super) fn seeded(traces: &[Option<Trace>]) -> impl Iterator<Item = (usize, &Trace)> {
     traces.iter().flatten().filter_map(|trace| Some((trace.seed?, trace)))
 }
 
+/// Returns a mask of `count` bins from `from` on.
 pub(super) fn bits(from: usize, count: usize) -> u64 {
-    (from..from + count).fold(0, |all, bin| all | 1 << bin)
+    (from..from + count).fold(0, |mask, bin| mask | 1 << bin)
 }
 
 impl ByDistance {
@@ -43,7 +44,7 @@ impl ByDistance {
         let (gaps, bins, window) = (parameters.chain.gaps(), parameters.bins, parameters.window);
         let mut places = vec![0; gaps];
         let [mut reached, mut active] = [bins + 1, bins].map(|rows| vec![vec![0; gaps]; rows]);
-        for (seed, trace) in ran(traces) {
+        for (seed, trace) in seeded(traces) {
             for (gap, &bits) in trace.hits.iter().enumerate() {
                 let distance = gap.abs_diff(seed);
                 places[distance] += 1;
@@ -51,7 +52,7 @@ impl ByDistance {
                     continue;
                 }
                 reached[bits.trailing_zeros() as usize + 1][distance] += 1;
-                let mut windows = (0..window).fold(0, |all, bin| all | bits >> bin);
+                let mut windows = (0..window).fold(0, |windows, bin| windows | bits >> bin);
                 while windows != 0 {
                     active[windows.trailing_zeros() as usize][distance] += 1;
                     windows &= windows - 1;
@@ -66,13 +67,13 @@ impl ByDistance {
         ByDistance { places, reached, active }
     }
 
-    /// Returns the sums over groups of runs without each in turn, and last over all of them.
+    /// Returns the sums over all groups of runs but one, for each group in turn, and last over all.
     pub(super) fn sums(groups: &[ByDistance]) -> Vec<Self> {
         let first = groups.first().expect("there are several groups").clone();
-        let all = groups[1..].iter().fold(first, |all, group| all.with(group, |a, b| a + b));
+        let total = groups[1..].iter().fold(first, |sum, group| sum.with(group, |a, b| a + b));
         let mut sums: Vec<Self> =
-            groups.iter().map(|group| all.clone().with(group, |all, one| all - one)).collect();
-        sums.push(all);
+            groups.iter().map(|group| total.clone().with(group, |sum, part| sum - part)).collect();
+        sums.push(total);
         sums
     }
 
@@ -87,7 +88,7 @@ impl ByDistance {
 
     /// Returns the share of the gaps at each distance; 0 where no gap has that distance.
     pub(super) fn shares(&self, hit: &[u64]) -> impl Iterator<Item = f64> {
-        hit.iter().zip(&self.places).map(|(part, all)| *part as f64 / (*all).max(1) as f64)
+        hit.iter().zip(&self.places).map(|(part, places)| *part as f64 / (*places).max(1) as f64)
     }
 
     /// Returns the expected number of gaps that a front to one side has passed by a bin's end.
@@ -95,7 +96,8 @@ impl ByDistance {
         self.shares(&self.reached[bin]).skip(1).sum()
     }
 
-    /// Returns the exponent of a power law of time from a quarter on; none if no gap was passed.
+    /// Returns the exponent of a power law fitted to the advance in the last three quarters of the
+    /// time, or `None` if a bin has no advance.
     pub(super) fn exponent(&self) -> Option<f64> {
         let last = self.reached.len() - 1;
         let point = |bin: usize| {

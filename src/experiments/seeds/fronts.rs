@@ -29,16 +29,17 @@ pub fn beat(chain: &Chain) -> f64 {
 }
 
 impl Fronts {
-    pub(super) fn of(parameters: &SeedsParams, (seed, trace): (usize, &Trace)) -> Self {
+    /// Counts the fronts of a run to both sides of its seed.
+    pub(super) fn count(parameters: &SeedsParams, (seed, trace): (usize, &Trace)) -> Self {
         let (end, beat) = (parameters.until() as u32, beat(&parameters.chain) as u32);
         let mut sums = Fronts::default();
         let (left, right) = (trace.firsts[..seed].iter().rev(), trace.firsts[seed + 1..].iter());
         for ahead in [left.collect::<Vec<_>>(), right.collect()] {
             sums.fronts += f64::from(!ahead.is_empty());
-            let mut at = 0;
+            let mut last = 0;
             for first in ahead {
                 let time = first.unwrap_or(end);
-                let wait = time - at;
+                let wait = time - last;
                 sums.waited += f64::from(wait);
                 if first.is_none() {
                     sums.standing += f64::from(wait > end / 2);
@@ -46,7 +47,7 @@ impl Fronts {
                 }
                 sums.steps += 1.0;
                 sums.short += f64::from(wait <= beat);
-                at = time;
+                last = time;
             }
         }
         sums
@@ -54,6 +55,6 @@ impl Fronts {
 }
 
 /// Returns a share or a rate over all runs, with its error by the jackknife over runs.
-pub(super) fn over(runs: &[Fronts], of: fn(&Fronts) -> [f64; 2]) -> Option<Estimate> {
-    ratio(&runs.iter().map(of).collect::<Vec<_>>())
+pub(super) fn ratio_over_runs(runs: &[Fronts], parts: fn(&Fronts) -> [f64; 2]) -> Option<Estimate> {
+    ratio(&runs.iter().map(parts).collect::<Vec<_>>())
 }

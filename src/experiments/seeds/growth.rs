@@ -24,8 +24,8 @@ pub(super) const GROUPS: usize = 8;
 /// Counts by distance at each σ, without each group of runs in turn, and last of all of them.
 pub(super) fn sums(parameters: &SeedsParams, rows: &[Part]) -> Vec<Vec<ByDistance>> {
     let grouped = |part: &Part| {
-        let at = |group: usize| group * part.len() / GROUPS;
-        let group = |group| ByDistance::count(parameters, &part[at(group)..at(group + 1)]);
+        let begin = |group: usize| group * part.len() / GROUPS;
+        let group = |group| ByDistance::count(parameters, &part[begin(group)..begin(group + 1)]);
         ByDistance::sums(&(0..GROUPS).map(group).collect::<Vec<_>>())
     };
     rows.par_iter().map(grouped).collect()
@@ -41,48 +41,53 @@ pub struct Prediction {
 }
 
 impl Prediction {
+    /// Estimates the mean count at the σ with this index.
     pub fn mean(&self, sigma: usize) -> Option<Estimate> {
-        jackknife(GROUPS, |out| Some(self.means[out.unwrap_or(GROUPS)][sigma][0]))
+        jackknife(GROUPS, |left_out| Some(self.means[left_out.unwrap_or(GROUPS)][sigma][0]))
     }
 
-    /// Returns the σ at which the one or the other passes half of all gaps, if it does.
+    /// Estimates the σ at which one of the two means (`which`: 0 or 1) passes half of all gaps.
     pub fn half_height(&self, parameters: &SeedsParams, which: usize) -> Option<Estimate> {
         let half = 0.5 * parameters.chain.gaps() as f64;
-        jackknife(GROUPS, |out| {
-            let means = self.means[out.unwrap_or(GROUPS)].iter().map(|means| Some(means[which]));
+        jackknife(GROUPS, |left_out| {
+            let means =
+                self.means[left_out.unwrap_or(GROUPS)].iter().map(|means| Some(means[which]));
             last_rise(&parameters.sigmas, &means.collect::<Vec<_>>(), half)
         })
     }
 }
 
-/// Returns by σ the chances that gaps begin in each bin: at a wall, elsewhere, and first there.
+/// Returns for each σ the chances that a gap closes by itself in each bin of time: a gap at a wall,
+/// any other, and the first gap of a clump.
 fn closing(parameters: &SeedsParams) -> Vec<[Vec<f64>; 3]> {
     let chain = &parameters.chain;
     let edges: Vec<f64> = (1..=parameters.bins).map(|bin| bin as f64 * parameters.bin).collect();
-    let reaches = Reach::within(chain, &edges, ANGLES);
-    let ever = Reach::ever(chain, COARSE);
+    let reaches = Reach::within_times(chain, &edges, ANGLES);
+    let ever = Reach::in_unlimited_time(chain, COARSE);
     let in_each_bin = |variance: f64, share: f64| -> Vec<f64> {
         let mut by_then = vec![0.0];
-        by_then.extend(reaches.iter().map(|at| share * at.probability(chain.spacing, variance)));
+        by_then
+            .extend(reaches.iter().map(|reach| share * reach.probability(chain.spacing, variance)));
         by_then.windows(2).map(|w| w[1] - w[0]).collect()
     };
-    let of = |sigma: &f64| {
+    let at_sigma = |sigma: &f64| {
         let chances = Chances::new(chain, &ever, *sigma);
         // The share of closing gaps whose left neighbour stays open.
         let share = 1.0 - chances.pair / chances.p;
         let variance = sigma * sigma;
-        [(1.0, 1.0), (2.0, 1.0), (2.0, share)].map(|(of, share)| in_each_bin(of * variance, share))
+        [(1.0, 1.0), (2.0, 1.0), (2.0, share)]
+            .map(|(times, share)| in_each_bin(times * variance, share))
     };
-    parameters.sigmas.par_iter().map(of).collect()
+    parameters.sigmas.par_iter().map(at_sigma).collect()
 }
 
 /// Returns the predictions of all transients, from the sums of groups of runs at each σ.
 pub(super) fn predictions(parameters: &SeedsParams, sums: &[Vec<ByDistance>]) -> Vec<Prediction> {
     let closing = closing(parameters);
     let prediction = |&transient: &usize| {
-        let means = |out: usize| {
+        let means = |left_out: usize| {
             let both = closing.iter().zip(sums);
-            both.map(|(closing, seen)| expected(parameters, closing, &seen[out], transient))
+            both.map(|(closing, seen)| expected(parameters, closing, &seen[left_out], transient))
                 .collect()
         };
         Prediction { transient, means: (0..=GROUPS).into_par_iter().map(means).collect() }
@@ -90,8 +95,8 @@ pub(super) fn predictions(parameters: &SeedsParams, sums: &[Vec<ByDistance>]) ->
     parameters.transients.iter().map(prediction).collect()
 }
 
-/// Returns the expected number of gaps with an impact in the window, for all gaps and for first
-/// ones as seeds, from their chances to begin in each bin: at a wall, elsewhere, and first there.
+/// Returns the expected number of gaps with an impact in the window, if all gaps that close are
+/// seeds and if only the first of each clump is, from the chances that [`closing`] gives.
 fn expected(
     parameters: &SeedsParams,
     closing: &[Vec<f64>; 3],
@@ -168,13 +173,13 @@ mod tests {
             (0..gaps).map(|l| pxfm::f_log1p(-sends(l))).collect()
         });
         let silent = |x: usize| {
-            let all: f64 = (0..gaps).map(|y| logs[1][x.abs_diff(y)]).sum();
+            let inner: f64 = (0..gaps).map(|y| logs[1][x.abs_diff(y)]).sum();
             let wall = |l: usize| logs[0][l] - logs[1][l];
-            pxfm::f_exp(all + wall(x) + wall(gaps - 1 - x))
+            pxfm::f_exp(inner + wall(x) + wall(gaps - 1 - x))
         };
         let mean = gaps as f64 - (0..gaps).map(silent).sum::<f64>();
-        for found in expected(&parameters, &closing, &seen, transient) {
-            assert!((found - mean).abs() < 1e-12 && mean > 0.5, "{found} {mean}");
+        for count in expected(&parameters, &closing, &seen, transient) {
+            assert!((count - mean).abs() < 1e-12 && mean > 0.5, "{count} {mean}");
         }
     }
 }

@@ -32,7 +32,7 @@ pub fn run(parameters: &SeedsParams, progress: &Progress) -> Result<Seeds, Error
     let stage = progress.stage("seeds", chains as u64);
     let rows = parameters.sigmas.iter().map(|&sigma| {
         let one = |index| trace(parameters, sigma, index, progress);
-        each(&stage, progress, 0..parameters.realisations as u64, one)
+        run_each(&stage, progress, 0..parameters.realisations as u64, one)
     });
     Ok(Seeds::new(parameters.clone(), rows.collect::<Result<_, _>>()?))
 }
@@ -45,7 +45,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Returns the amplitudes of the chain, and that gap.
+    /// Draws until such a chain is found, and returns its amplitudes and that gap.
     fn chain(&mut self) -> (Vec<[f64; 2]>, usize) {
         let n = self.chain.masses;
         loop {
@@ -61,16 +61,16 @@ impl Search<'_> {
     ///
     /// Both halves are drawn in this way, until it holds for the whole. The result is distributed
     /// as if whole chains had been drawn and rejected, which would take a hundred thousand of them.
-    fn part(&mut self, of: Range<usize>, bodies: &mut Vec<[f64; 2]>) -> Option<usize> {
-        let (middle, begin) = (of.start.midpoint(of.end), bodies.len());
-        if of.len() == 1 {
-            bodies.push(self.body(of.start));
+    fn part(&mut self, range: Range<usize>, bodies: &mut Vec<[f64; 2]>) -> Option<usize> {
+        let (middle, begin) = (range.start.midpoint(range.end), bodies.len());
+        if range.len() == 1 {
+            bodies.push(self.body(range.start));
             return None;
         }
         loop {
-            let left = self.part(of.start..middle, bodies);
-            let right = self.part(middle..of.end, bodies);
-            let last = begin + middle - of.start;
+            let left = self.part(range.start..middle, bodies);
+            let right = self.part(middle..range.end, bodies);
+            let last = begin + middle - range.start;
             let least = closing_pull(self.chain);
             let closes = pulls(self.chain, &bodies[last - 1..=last]).any(|pull| pull >= least);
             let between = closes.then_some(middle - 1);
@@ -83,10 +83,10 @@ impl Search<'_> {
         }
     }
 
-    /// Returns the amplitude of a body, none for a wall.
+    /// Returns the amplitudes of the force on a body; those on a wall are zero.
     fn body(&mut self, body: usize) -> [f64; 2] {
-        let wall = body == 0 || body > self.chain.masses;
-        if wall { [0.0; 2] } else { self.normals.pair().map(|x| self.sigma * x) }
+        let is_wall = body == 0 || body > self.chain.masses;
+        if is_wall { [0.0; 2] } else { self.normals.pair().map(|x| self.sigma * x) }
     }
 }
 
@@ -98,7 +98,7 @@ fn trace(
 ) -> Result<Option<Trace>, Error> {
     progress.check()?;
     let chain = &parameters.chain;
-    let mut normals = NormalPairs::new("seeds", SEED, index);
+    let mut normals = NormalPairs::new("seeds", Seed(SEED), index);
     let (forcing, seed) = Search { chain, sigma, normals: &mut normals }.chain();
     let fault = |source| Error::failed("seeds", source);
     let scenario = Scenario::given(chain, forcing).map_err(fault)?;
@@ -142,7 +142,7 @@ mod tests {
     #[test]
     fn a_drawn_chain_has_one_gap_that_closes_by_itself() {
         let (chain, sigma) = (Chain { masses: 5, ..Chain::default() }, 0.25);
-        let mut normals = NormalPairs::new("test of seeds, whole chains", 1, 0);
+        let mut normals = NormalPairs::new("test of seeds, whole chains", Seed(1), 0);
         let mut whole = || loop {
             let forcing: Vec<[f64; 2]> =
                 (0..5).map(|_| normals.pair().map(|x| sigma * x)).collect();
@@ -153,7 +153,7 @@ mod tests {
         // For each gap the shares of chains that have it, and the mean square of the forces then.
         let mut sums = [[[0.0; 2]; 6]; 2];
         for index in 0..20_000 {
-            let mut normals = NormalPairs::new("test of seeds", 1, index);
+            let mut normals = NormalPairs::new("test of seeds", Seed(1), index);
             let drawn = Search { chain: &chain, sigma, normals: &mut normals }.chain();
             assert_eq!(closing(&chain, &drawn.0), [drawn.1]);
             for (sums, (forcing, seed)) in sums.iter_mut().zip([drawn, whole()]) {

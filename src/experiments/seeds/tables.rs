@@ -1,7 +1,7 @@
 //! Makes the tables of the runs, of fronts, and of the mean counts that follow.
 
-use super::counting::{bits, ran};
-use super::fronts::{Fronts, beat, over};
+use super::counting::{bits, seeded};
+use super::fronts::{Fronts, beat, ratio_over_runs};
 use super::growth::{GROUPS, Prediction, sums};
 use super::{ByDistance, Seeds, Trace};
 use crate::experiments::prelude::*;
@@ -11,7 +11,7 @@ use impact_numerics::estimates::jackknife;
 struct RunsAtSigma<'a> {
     sigma: f64,
     runs: Vec<(usize, &'a Trace)>,
-    /// Counts without each group of runs in turn, and last of all of them.
+    /// Counts of all groups of runs but one, for each group in turn, and last of all.
     sums: &'a [ByDistance],
     fronts: Vec<Fronts>,
 }
@@ -21,8 +21,8 @@ pub fn tables(seeds: &Seeds) -> Vec<Table> {
     let sums = sums(parameters, &seeds.rows);
     let mut rows = Vec::new();
     for ((part, sums), &sigma) in seeds.rows.iter().zip(&sums).zip(&parameters.sigmas) {
-        let runs: Vec<(usize, &Trace)> = ran(part).collect();
-        let fronts = runs.iter().map(|run| Fronts::of(parameters, *run)).collect();
+        let runs: Vec<(usize, &Trace)> = seeded(part).collect();
+        let fronts = runs.iter().map(|run| Fronts::count(parameters, *run)).collect();
         rows.push(RunsAtSigma { sigma, runs, sums, fronts });
     }
     vec![
@@ -62,11 +62,11 @@ fn advance(parameters: &SeedsParams, rows: &[RunsAtSigma<'_>]) -> Table {
 
 fn fronts(beat: f64, rows: &[RunsAtSigma<'_>]) -> Table {
     const STANDING: &str = "share of fronts without a step in the second half";
-    let share = |row: &RunsAtSigma<'_>, of: fn(&Fronts) -> [f64; 2]| over(&row.fronts, of);
+    let share = |row: &RunsAtSigma<'_>, parts| ratio_over_runs(&row.fronts, parts);
     Table::of("seeds.fronts", rows, |row| row.runs.len())
         .key("sigma", SIGMA, |row| row.sigma)
         .estimate("exponent", "1", "d ln(advance)/d ln t over the last three quarters", |row| {
-            jackknife(GROUPS, |out| row.sums[out.unwrap_or(GROUPS)].exponent())
+            jackknife(GROUPS, |left_out| row.sums[left_out.unwrap_or(GROUPS)].exponent())
         })
         .estimate("bursts", "1", "share of steps within a beat", |row| {
             share(row, |sums| [sums.short, sums.steps])
@@ -80,10 +80,10 @@ fn fronts(beat: f64, rows: &[RunsAtSigma<'_>]) -> Table {
 }
 
 fn means(parameters: &SeedsParams, predicted: &[Prediction]) -> Table {
-    let sigmas = |given| parameters.sigmas.iter().enumerate().map(move |sigma| (given, sigma));
+    let sigmas = |means| parameters.sigmas.iter().enumerate().map(move |sigma| (means, sigma));
     let rows: Vec<(&Prediction, (usize, &f64))> = predicted.iter().flat_map(sigmas).collect();
     Table::of("seeds.means", &rows, |_| parameters.realisations)
-        .key("transient", TIME, |(given, _)| given.transient as f64 * parameters.bin)
+        .key("transient", TIME, |(means, _)| means.transient as f64 * parameters.bin)
         .key("sigma", SIGMA, |(_, (_, sigma))| **sigma)
         .estimate("grown", "1", "mean count by nucleation and growth", |row| row.0.mean(row.1.0))
         .done()
@@ -91,9 +91,9 @@ fn means(parameters: &SeedsParams, predicted: &[Prediction]) -> Table {
 
 /// Makes the table of half heights, if all gaps of a clump are seeds, or only the first.
 fn rise(parameters: &SeedsParams, predicted: &[Prediction]) -> Table {
-    let half = |which| move |given: &Prediction| given.half_height(parameters, which);
+    let half = |which| move |means: &Prediction| means.half_height(parameters, which);
     Table::of("seeds.rise", predicted, |_| parameters.realisations)
-        .key("transient", TIME, |given| given.transient as f64 * parameters.bin)
+        .key("transient", TIME, |means| means.transient as f64 * parameters.bin)
         .estimate("half_height", SIGMA, "σ where that is half of all gaps", half(0))
         .estimate("of_clumps", SIGMA, "the same if only clumps are seeds", half(1))
         .done()
@@ -137,12 +137,12 @@ mod tests {
             None,
             run([0b0010, 0b0001, 0b0010], [Some(30), Some(0), Some(40)]),
         ]];
-        let found = tables(&Seeds::new(parameters, rows));
-        let [course, advance, fronts, ..] = &found[..] else { panic!() };
-        let at = |until: f64, column| course.number(&[("until", until)], column).unwrap();
+        let tables = tables(&Seeds::new(parameters, rows));
+        let [course, advance, fronts, ..] = &tables[..] else { panic!() };
+        let count = |until: f64, column| course.number(&[("until", until)], column).unwrap();
         let columns = ["reached", "active"];
-        assert_eq!(columns.map(|column| at(50.0, column)), [2.5, 2.5]);
-        assert_eq!(columns.map(|column| at(100.0, column)), [2.5, 0.5]);
+        assert_eq!(columns.map(|column| count(50.0, column)), [2.5, 2.5]);
+        assert_eq!(columns.map(|column| count(100.0, column)), [2.5, 0.5]);
         // To each side there are two neighbours, of which three of four are hit.
         let advance = advance.curve(&[], "time", "advance").unwrap();
         assert_eq!(advance, [(25.0, 0.0), (50.0, 0.75), (75.0, 0.75), (100.0, 0.75)]);

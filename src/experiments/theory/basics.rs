@@ -5,11 +5,12 @@ use literate::table::{Building, Table};
 use literate::value::Origin;
 
 /// Returns the value of a formula that exists for the numbers of the paper.
-pub(crate) fn known<T>(found: Result<T, Error>) -> T {
-    found.expect("the theory exists for the paper's N and p")
+pub(crate) fn known<T>(result: Result<T, Error>) -> T {
+    result.expect("the theory exists for the paper's N and p")
 }
 
-pub(crate) fn one(name: &'static str, item: Origin) -> Building<'static, ()> {
+/// Begins a table with one row.
+pub(crate) fn one_row(name: &'static str, item: Origin) -> Building<'static, ()> {
     Table::of(name, &[()], |()| 0).computed_by(item)
 }
 
@@ -28,5 +29,7 @@ pub(crate) type Cases = [u64; 2];
 
 /// Counts the cases in which two sides of a statement were compared, and those that do not agree.
 pub(crate) fn cases(agree: impl IntoIterator<Item = bool>) -> Cases {
-    agree.into_iter().fold([0, 0], |[all, failed], agrees| [all + 1, failed + u64::from(!agrees)])
+    agree
+        .into_iter()
+        .fold([0, 0], |[compared, failed], agrees| [compared + 1, failed + u64::from(!agrees)])
 }

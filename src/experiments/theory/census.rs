@@ -9,6 +9,7 @@ pub(crate) type Census = BTreeMap<(usize, usize, Vec<usize>), u128>;
 /// Longest circuits that are enumerated on N = 1, 2, … vertices.
 pub(crate) const LONGEST: [usize; 6] = [6, 10, 8, 7, 6, 6];
 
+/// Enumerates the circuits of all small graphs.
 pub(crate) fn census() -> Census {
     let mut census = Census::new();
     for (n, longest) in (1..).zip(LONGEST) {
@@ -24,6 +25,7 @@ pub(crate) fn enumerated() -> impl Iterator<Item = (usize, usize)> {
     (1..).zip(LONGEST).flat_map(|(n, longest)| (1..=longest).map(move |k| (n, k)))
 }
 
+/// Returns the number of circuits of a length and class on n vertices.
 pub(crate) fn counted(census: &Census, n: usize, k: usize, repeats: &[usize]) -> u128 {
     census.get(&(n, k, repeats.to_vec())).copied().unwrap_or(0)
 }

@@ -1,6 +1,6 @@
 //! Counts circuits: Secs. 3 and 5, Fig. 7.
 
-use super::basics::{known, largest, one, sum};
+use super::basics::{known, largest, one_row, sum};
 use crate::experiments::prelude::*;
 use crate::params::{GRAPH_MASSES, VERTICES};
 use impact_circuits::distribution::SampleSpace;
@@ -8,7 +8,7 @@ use impact_circuits::graph::Graph;
 use impact_circuits::{commuting, counting, jump};
 use std::f64::consts::LN_10;
 
-/// Lengths down to so many below N are about N (ours: a twentieth of it).
+/// Lengths that are less than N by at most this are about N (ours: a twentieth of N).
 const ABOUT: usize = VERTICES / 20;
 
 /// Gaps of the chain whose simple circuits are enumerated.
@@ -16,7 +16,7 @@ const ENUMERATED: usize = 7;
 
 pub(super) fn graph() -> Table {
     let vertices = Graph::of_chain(GRAPH_MASSES).vertices() as u64;
-    one("theory.graph", origin(Graph::of_chain))
+    one_row("theory.graph", origin(Graph::of_chain))
         .count("vertices", "of the graph for three masses", |()| vertices)
         .count("edges", "of the same", |()| vertices * vertices)
         .done()
@@ -37,7 +37,7 @@ pub(super) fn lengths() -> Table {
     let exceptions = (1..VERTICES).filter(|&k| ratio(k) > 0.1).count();
     let peak = (1..=VERTICES).max_by(|a, b| shares[a - 1].total_cmp(&shares[b - 1]));
     let long = sum(shares[VERTICES - ABOUT - 1..].iter().copied());
-    one("theory.lengths", origin(counting::ratio_to_longest))
+    one_row("theory.lengths", origin(counting::ratio_to_longest))
         .real("before_last", "1", 4, "Eq. (8) at k = N − 1", |()| ratio(VERTICES - 1))
         .real("largest_far", "1", 2, "the largest for k that are not about N", |()| far)
         .count("exceptions", EXCEPTIONS, |()| exceptions as u64)
@@ -54,7 +54,7 @@ pub(super) fn commuting_circuits() -> Table {
     let by_eq7: u128 = (1..=ENUMERATED).filter_map(|k| counting::phi(ENUMERATED, k)).sum();
     let leap = known(jump::p_jump(SampleSpace::Simple, VERTICES));
     let mean = commuting::mean_without_orders(VERTICES, leap.p);
-    one("theory.commuting", origin(commuting::simple_classes))
+    one_row("theory.commuting", origin(commuting::simple_classes))
         .count("gaps", "gaps of a chain", |()| ENUMERATED as u64)
         .count("circuits", "simple circuits, each cyclic order of impacts once", |()| circuits)
         .computed_by(origin(counting::phi))

@@ -1,8 +1,8 @@
 //! Computes what circuits that repeat vertices change: Sec. 9, Figs. 13 and 14.
 
-use super::basics::{known, one, sum};
+use super::basics::{known, one_row, sum};
 use super::census::{census, counted};
-use super::comparison;
+use super::comparison::interpolate;
 use super::law::{law, means, simple};
 use crate::experiments::prelude::*;
 use crate::params::{HIGHER_P, REMARK_P, VERTICES};
@@ -18,28 +18,27 @@ pub fn five(p: f64) -> Vec<f64> {
     law(FiveClasses, p).probabilities()
 }
 
-/// Returns the parts of the five classes in it, in the order of Eq. (38).
+/// Returns the parts of the five classes in P(X = k), in the order of Eq. (38).
 pub fn contributions(p: f64) -> [Vec<f64>; 5] {
     CLASSES.map(|class| law(FiveClasses, p).contribution(&class))
 }
 
+/// Returns half the sum of the absolute differences of two distributions.
 fn total_variation(a: &[f64], b: &[f64]) -> f64 {
     0.5 * sum(a.iter().zip(b).map(|(a, b)| (a - b).abs()))
 }
 
-/// Returns the least of these distances if the first distribution is moved down by up to ten k, in
-/// steps of a hundredth, its values between whole k on straight lines.
+/// Returns the least total variation between two distributions if the first is moved down by up to
+/// ten k in steps of a hundredth; between whole k its values lie on straight lines.
 fn apart_in_shape(a: &[f64], b: &[f64]) -> f64 {
-    let value = |at: usize| a.get(at).copied().unwrap_or(0.0);
+    let value = |k: usize| a.get(k).copied().unwrap_or(0.0);
     let moved = |hundredths: usize| {
         let (by, share) = (hundredths / 100, (hundredths % 100) as f64 / 100.0);
         // Before the first and beyond the last k as well.
         let lost = (0..=by).map(|k| if k < by { value(k) } else { share * value(k) });
-        let kept = b
-            .iter()
-            .enumerate()
-            .map(|(k, b)| ((1.0 - share) * value(k + by) + share * value(k + by + 1) - b).abs());
-        0.5 * (sum(lost) + sum(kept))
+        let shifted = |k: usize| (1.0 - share) * value(k + by) + share * value(k + by + 1);
+        let overlap = b.iter().enumerate().map(|(k, b)| (shifted(k) - b).abs());
+        0.5 * (sum(lost) + sum(overlap))
     };
     (0..=1000).map(moved).fold(f64::INFINITY, f64::min)
 }
@@ -105,18 +104,20 @@ fn by_different(p: f64, more: &[f64]) -> Vec<f64> {
     simple(p).iter().zip(more).map(|(q, more)| q * more).collect()
 }
 
-/// Returns whether in the same each k + 1 overtakes k at a larger p than k overtook k − 1.
+/// Whether, if a circuit weighs p^k by its k different vertices, each k + 1 overtakes k at a larger
+/// p than k overtook k − 1.
 pub(crate) fn overtaken_in_order() -> bool {
     by_different(1.0, &multiplicities()).windows(3).all(|w| w[0] / w[1] < w[1] / w[2])
 }
 
-/// Returns the share of simple circuits in the same.
+/// Returns the share of simple circuits in the distribution of [`by_different`].
 fn simple_by_different(p: f64) -> f64 {
-    let all = sum(by_different(p, &multiplicities()));
-    f64::from(SHARED as u32) * sum(simple(p)) / all
+    let weights = sum(by_different(p, &multiplicities()));
+    f64::from(SHARED as u32) * sum(simple(p)) / weights
 }
 
-/// Returns the largest step of k* in the same, on a grid of p in steps of 1/100 000 up to 0.04.
+/// Returns the largest step of k* in the distribution of [`by_different`], on a grid of p in steps
+/// of 1/100 000 up to 0.04.
 fn largest_step() -> u64 {
     let more = multiplicities();
     let top = |i: u32| {
@@ -150,11 +151,11 @@ pub(super) fn higher(curve: &Table, relation: &Table) -> Table {
     // Where simple circuits have the μ that higher orders have at the σ of the largest change.
     let curve = |name| curve.curve(&[], "sigma", name).unwrap_or_default();
     let inverse: Vec<_> = curve("simple").into_iter().map(|(sigma, mean)| (mean, sigma)).collect();
-    let shifted_to = || comparison::at(&inverse, comparison::at(&curve("higher"), change_at)?);
+    let shifted_to = || interpolate(&inverse, interpolate(&curve("higher"), change_at)?);
     let shift_there = || Some((shifted_to()? - change_at).abs());
     let shift = |column| (sigma_of(column) - sigma_of("sigma_jump")).abs();
     let over = shift("sigma_jump_rest") / shift("sigma_jump_higher");
-    one("theory.higher", origin(doubled_as_printed))
+    one_row("theory.higher", origin(doubled_as_printed))
         .real("eq30_printed", "1", 1, "Eq. (30) as printed, k = N = 3", |()| eq30)
         .count("eq30_counted", "circuits that it should count", |()| counted)
         .computed_by(origin(jump::p_jump))

@@ -1,6 +1,6 @@
 //! Computes the jump of the most likely number of impacts: Sec. 7, Fig. 10.
 
-use super::basics::{known, one};
+use super::basics::{known, one_row};
 use super::law::{k_star, law};
 use crate::experiments::prelude::*;
 use crate::params::VERTICES;
@@ -17,7 +17,7 @@ pub(super) fn numbers() -> Table {
     let (at_one, between) = (law(Simple, 1.0), 0.5 * (crit + leap.bracket[0]));
     let [before, last] = [VERTICES - 1, VERTICES].map(|k| known(at_one.weight(k)));
     let [by_variance, by_difference] = mean_slopes(leap.p);
-    one("theory.jump", origin(jump::p_crit))
+    one_row("theory.jump", origin(jump::p_crit))
         .real("p_crit", "1", 5, "Eq. (18)", |()| crit)
         .real("p_crit_walls", "1", 5, "the same for N + 1", |()| p_crit(VERTICES + 1))
         .real("k_touch", "1", 4, "double zero of f at p_crit", |()| top(crit))
@@ -47,7 +47,7 @@ pub(super) fn first_maximum() -> Table {
     let (k, [above, below]) =
         jump::first_local_maximum(VERTICES).expect("N = 100 has a local maximum");
     let p = above as f64 / below as f64;
-    one("theory.first_maximum", origin(jump::first_local_maximum))
+    one_row("theory.first_maximum", origin(jump::first_local_maximum))
         .count("numerator", "of p", |()| above as u64)
         .count("denominator", "of p", |()| below as u64)
         .real("p", "1", 5, "where Φ first has a local maximum beyond k = 1", |()| p)
@@ -68,7 +68,8 @@ pub fn f(p: f64) -> Vec<(f64, f64)> {
     ks.map(|k| (k, jump::f(VERTICES, p, k))).collect()
 }
 
-/// Returns the zeros of f_{N,p}; at the double of p_crit, whatever side of it it is on, both 1/√p.
+/// Returns the zeros of f_{N,p}; at the double nearest to p_crit both are 1/√p, on whichever side
+/// of p_crit it lies.
 pub fn zeros(p: f64) -> Option<[f64; 2]> {
     if p == known(jump::p_crit(VERTICES)) {
         return Some([1.0 / p.sqrt(); 2]);

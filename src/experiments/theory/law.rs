@@ -1,6 +1,6 @@
 //! Computes the distribution of the number of different impacts: Sec. 6, Figs. 8 and 9.
 
-use super::basics::{known, one};
+use super::basics::{known, one_row};
 use crate::experiments::prelude::*;
 use crate::params::{DISTRIBUTION_P, Grid, VERTICES};
 use impact_circuits::distribution::Law;
@@ -49,7 +49,7 @@ pub(super) fn mean() -> Table {
     let (grid, means): (Vec<f64>, Vec<_>) =
         means().into_iter().map(|(p, mean)| (p, Some(mean))).unzip();
     let p_at = |share: f64| last_rise(&grid, &means, share * VERTICES as f64);
-    one("theory.mean", origin(steps))
+    one_row("theory.mean", origin(steps))
         .count("largest_step", "of k*", |()| heights[0] as u64)
         .count("other_steps", "the second largest step of k*", |()| heights[1] as u64)
         .computed_by(origin(Law::mean))

@@ -1,6 +1,6 @@
 //! Computes p(σ), and μ along it (Sec. 8, Figs. 11, 12 and 15), and gaps that close by themselves.
 
-use super::basics::{known, largest, one};
+use super::basics::{known, largest, one_row};
 use super::law::law;
 use crate::experiments::prelude::*;
 use crate::params::{self, Grid, Profile, VERTICES};
@@ -30,6 +30,7 @@ fn smallest_sigma(holds: impl FnMut(f64) -> bool) -> f64 {
     roots::bracket(0.0, 1.0, holds)[1]
 }
 
+/// Returns the σ at which a relation reaches p.
 pub(super) fn reaches(p_of: fn(f64) -> f64, p: f64) -> f64 {
     smallest_sigma(|sigma| p_of(sigma) >= p)
 }
@@ -69,14 +70,16 @@ fn any(p: f64, gaps: usize) -> f64 {
     -pxfm::f_expm1(gaps as f64 * pxfm::f_log1p(-p))
 }
 
-/// Returns the same by Eq. (25), for random free parts, with another p at the walls: an upper
-/// bound, since normal variables make symmetric convex events no less likely together.
+/// Returns the probability that some gap closes by itself by Eq. (25), for random free parts, with
+/// another p at the walls: an upper bound, since normal variables make symmetric convex events no
+/// less likely together.
 fn any_random(sigma: &f64) -> f64 {
     let none = (Chain::default().gaps() - 2) as f64 * pxfm::f_log1p(-p_of(*sigma));
     -pxfm::f_expm1(none + 2.0 * pxfm::f_log1p(-p_of(sigma / SQRT_2)))
 }
 
-/// Returns σ at which such a share of chains from rest has one, as if gaps were independent.
+/// Returns the σ at which a share of the chains from rest has a gap that closes by itself, as if
+/// gaps were independent.
 fn sigma_kept(share: f64) -> f64 {
     smallest_sigma(|sigma| any(p_rest_of(sigma), Chain::default().gaps()) >= share)
 }
@@ -101,7 +104,7 @@ pub(super) fn relation() -> Table {
     let crit = known(p_crit(VERTICES));
     let jumps = [(Simple, VERTICES), (Simple, VERTICES + 1), (FiveClasses, VERTICES)];
     let [jump, walls, higher] = jumps.map(|(space, vertices)| known(p_jump(space, vertices)).p);
-    one("theory.relation", origin(reaches))
+    one_row("theory.relation", origin(reaches))
         .real("sigma_crit", SIGMA, 4, "σ at which p is p_crit", |()| reaches(p_of, crit))
         .real("sigma_jump", SIGMA, 4, "σ at which p is p_jump", |()| reaches(p_of, jump))
         .real("sigma_jump_walls", SIGMA, 4, "the same for N + 1", |()| reaches(p_of, walls))

@@ -62,24 +62,24 @@ fn probabilities_mean_and_mode_agree_with_direct_sums() {
                 let law = Law::new(space, big_n, p).unwrap();
                 let weights = weights(space, big_n, p);
                 let total = sum(&weights);
-                let at = format!("{space:?} N = {big_n} p = {p}");
+                let case = format!("{space:?} N = {big_n} p = {p}");
                 if space != Simple {
                     let parts = CLASSES.map(|class| law.contribution(&class));
                     let sums = (0..big_n).map(|i| parts.iter().map(|part| part[i]).sum::<f64>());
                     let near = |(sum, all): (f64, f64)| (sum - all).abs() < 4e-15;
-                    assert!(sums.zip(law.probabilities()).all(near), "{at}");
+                    assert!(sums.zip(law.probabilities()).all(near), "{case}");
                 }
                 for (i, ours) in law.probabilities().into_iter().enumerate() {
                     let exact = weights[i].clone() / &total;
                     if near(&exact) > 1e-300 {
-                        assert!(relative_error(ours, &exact) < 4e-15, "{at} k = {}", i + 1);
+                        assert!(relative_error(ours, &exact) < 4e-15, "{case} k = {}", i + 1);
                     }
-                    assert_eq!(law.probability(i + 1), Ok(ours), "{at}");
+                    assert_eq!(law.probability(i + 1), Ok(ours), "{case}");
                 }
                 let moment =
                     weights.iter().enumerate().fold(int(0), |s, (i, w)| s + int(i + 1) * w);
-                assert!(relative_error(law.mean(), &(moment / &total)) < 1e-15, "{at}");
-                assert_eq!(law.k_star(), first_largest(&weights), "{at}");
+                assert!(relative_error(law.mean(), &(moment / &total)) < 1e-15, "{case}");
+                assert_eq!(law.k_star(), first_largest(&weights), "{case}");
             }
         }
     }

@@ -55,18 +55,18 @@ fn jump_agrees_with_roots_of_exact_integers() {
 fn jump_of_a_million_vertices() {
     // Φ(k)/Φ(1) in 67-digit arithmetic at both ends of the bracket, and the root at its k.
     let big_n = 1_000_000;
-    let found = jump::p_jump(Simple, big_n).unwrap();
+    let leap = jump::p_jump(Simple, big_n).unwrap();
     let exceeds = |p: f64| {
         let mut ratio = int(1);
-        (2..=3 * found.k_after).any(|k| {
+        (2..=3 * leap.k_after).any(|k| {
             ratio *= big(p) * int(big_n + 1 - k);
             ratio > int(k)
         })
     };
-    assert!(!exceeds(found.bracket[0]) && exceeds(found.bracket[1]));
-    let falling = (2..=found.k_after).fold(int(1), |all, k| all * int(big_n + 1 - k));
-    let log = (int(found.k_after) / falling).ln();
-    assert!(relative_error(found.p, &exp(log / int(found.k_after - 1))) < 1e-14);
+    assert!(!exceeds(leap.bracket[0]) && exceeds(leap.bracket[1]));
+    let falling = (2..=leap.k_after).fold(int(1), |product, k| product * int(big_n + 1 - k));
+    let log = (int(leap.k_after) / falling).ln();
+    assert!(relative_error(leap.p, &exp(log / int(leap.k_after - 1))) < 1e-14);
 }
 
 #[test]
@@ -78,13 +78,13 @@ fn jump_of_five_classes_is_bracketed_to_the_last_bit() {
             weights.iter().any(|weight| *weight > weights[0])
         };
         for big_n in [2, 3, 4, 10, 100, 101, 300] {
-            let found = jump::p_jump(space, big_n).unwrap();
-            let [below, above] = found.bracket;
+            let leap = jump::p_jump(space, big_n).unwrap();
+            let [below, above] = leap.bracket;
             assert_eq!(below.next_up(), above);
             assert!(!exceeded(big_n, below) && exceeded(big_n, above), "{space:?} N = {big_n}");
-            assert!(found.p == below || found.p == above);
+            assert!(leap.p == below || leap.p == above);
             let k_star = |p| Law::new(space, big_n, p).unwrap().k_star();
-            assert_eq!((k_star(below), k_star(above)), (1, found.k_after));
+            assert_eq!((k_star(below), k_star(above)), (1, leap.k_after));
         }
     }
 }

@@ -77,28 +77,28 @@ fn closed_forms_agree_with_quadrature_to_the_last_digits() {
     for (d, omega, forcing) in SETTINGS {
         for over_d in [1e-25, 1e-20, 1e-3, 0.0135, 0.02, 0.05, 0.15, 0.4, 0.5, 1.0, 10.0, 1e6] {
             let sigma = over_d * d;
-            let at = format!("d {d} ω {omega} Ω {forcing} σ {sigma}");
+            let case = format!("d {d} ω {omega} Ω {forcing} σ {sigma}");
             let law = ImpactProbability::new(sigma, d, omega, forcing).unwrap();
-            let case = Case::new(sigma, d, omega, forcing);
-            let (least, factor) = case.scaled_p(&gauss);
+            let exact_case = Case::new(sigma, d, omega, forcing);
+            let (least, factor) = exact_case.scaled_p(&gauss);
             let mut log = factor.ln() - &least;
             let exact = exp(-least) * factor;
             match law.p() {
                 Err(error) => {
-                    assert!(error.to_string().contains("below the range"), "{at}");
-                    assert!(exact < big(f64::MIN_POSITIVE), "{at}");
+                    assert!(error.to_string().contains("below the range"), "{case}");
+                    assert!(exact < big(f64::MIN_POSITIVE), "{case}");
                 }
-                Ok(p) => assert!(relative_error(p, &exact) < 5e-15, "{at}: {p}"),
+                Ok(p) => assert!(relative_error(p, &exact) < 5e-15, "{case}: {p}"),
             }
             if over_d >= 0.4 {
-                let rest = case.complement(&gauss);
+                let rest = exact_case.complement(&gauss);
                 // Where p is nearly 1, to its last bit.
                 let last = relative_error(law.p().unwrap(), &(int(1) - rest.clone()));
-                assert!(over_d < 10.0 || last < 1.2e-16, "{at}: {last}");
-                assert!(relative_error(law.complement(), &rest) < 5e-15, "{at}");
+                assert!(over_d < 10.0 || last < 1.2e-16, "{case}: {last}");
+                assert!(relative_error(law.complement(), &rest) < 5e-15, "{case}");
                 log = (int(1) - rest).ln();
             }
-            assert!(relative_error(law.log_p().unwrap(), &log) < 5e-15, "{at}");
+            assert!(relative_error(law.log_p().unwrap(), &log) < 5e-15, "{case}");
         }
     }
 }

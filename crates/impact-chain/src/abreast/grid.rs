@@ -26,7 +26,8 @@ pub struct Grid {
     pub length: f64,
     rates: [Rate; 2],
     steps: usize,
-    kept: Vec<Step>,
+    /// All steps, or none if there are more than are kept.
+    table: Vec<Step>,
 }
 
 impl Grid {
@@ -38,9 +39,9 @@ impl Grid {
         let length = f64::from_bits(longest.to_bits() & !((1 << 52) - 1));
         let steps = (until / length).ceil() as usize;
         let rates = frequencies.map(Rate::new);
-        let mut grid = Grid { length, rates, steps, kept: Vec::new() };
+        let mut grid = Grid { length, rates, steps, table: Vec::new() };
         if steps <= KEPT {
-            grid.kept = grid.computed(0, steps);
+            grid.table = grid.compute_steps(0, steps);
         }
         grid
     }
@@ -51,13 +52,13 @@ impl Grid {
 
     /// Lists all steps in pieces.
     pub fn pieces(&self) -> impl Iterator<Item = Cow<'_, [Step]>> {
-        (0..self.steps.div_ceil(KEPT)).map(|piece| match &self.kept[..] {
-            [] => Cow::Owned(self.computed(piece * KEPT, KEPT.min(self.steps - piece * KEPT))),
-            kept => Cow::Borrowed(kept),
+        (0..self.steps.div_ceil(KEPT)).map(|piece| match &self.table[..] {
+            [] => Cow::Owned(self.compute_steps(piece * KEPT, KEPT.min(self.steps - piece * KEPT))),
+            table => Cow::Borrowed(table),
         })
     }
 
-    fn computed(&self, first: usize, number: usize) -> Vec<Step> {
+    fn compute_steps(&self, first: usize, number: usize) -> Vec<Step> {
         let step = |i| Step { middle: self.phases(2 * i + 1), end: self.phases(2 * i + 2) };
         (first..first + number).map(step).collect()
     }

@@ -2,7 +2,7 @@
 
 use super::grid::{Grid, Phases, Step};
 use super::plan::Plan;
-use super::proof::{LARGEST, MARGIN, Part, blur, least};
+use super::proof::{LARGEST, MARGIN, Part, blur, least_width};
 use super::roots::Candidates;
 use super::slot::{A, B, C, D, FORCED, LAST, REACH, SAG, Slot, TAME, WIDTH};
 use crate::Impact;
@@ -18,7 +18,7 @@ pub struct Lanes<'a> {
     /// First columns of the blocks of a chain to look at, with the bits of gaps: none in the last.
     flagged: Vec<(usize, u8)>,
     /// Slots with roots or candidates in this step.
-    todo: Vec<usize>,
+    pending: Vec<usize>,
 }
 
 /// Evaluates a cos ωt + b sin ωt + c cos Ωt + d sin Ωt.
@@ -48,7 +48,7 @@ impl<'a> Lanes<'a> {
             candidates: Candidates::default(),
             // There are more gaps than blocks.
             flagged: vec![(0, 0); plan.weights.len() + 1],
-            todo: Vec::new(),
+            pending: Vec::new(),
         }
     }
 
@@ -68,19 +68,19 @@ impl<'a> Lanes<'a> {
                     }
                 }
                 let middle = (i as f64 + 0.5) * grid.length;
-                apart(
+                call_apart(
                     simd,
                     #[inline(always)]
                     || self.look(simd, start, step),
                 );
-                while !self.todo.is_empty() {
+                while !self.pending.is_empty() {
                     let Lanes { plan, slots, candidates, .. } = self;
-                    apart(
+                    call_apart(
                         simd,
                         #[inline(always)]
                         || candidates.locate(simd, plan, step.middle, slots),
                     );
-                    apart(
+                    call_apart(
                         simd,
                         #[inline(always)]
                         || self.advance(simd, step, [middle, end]),
@@ -95,9 +95,12 @@ impl<'a> Lanes<'a> {
     #[inline(always)]
     fn look<S: Simd>(&mut self, simd: S, start: Phases, step: &Step) {
         for slot in 0..self.slots.len() {
+            if self.slots[slot].active.is_empty() {
+                continue;
+            }
             self.scan(simd, slot, step.end);
             if self.sift(simd, slot, start, step) {
-                self.todo.push(slot);
+                self.pending.push(slot);
             }
         }
     }
@@ -134,7 +137,7 @@ impl<'a> Lanes<'a> {
     #[inline(always)]
     fn sift<S: Simd>(&mut self, simd: S, slot: usize, start: Phases, step: &Step) -> bool {
         let Plan { ratio, step: length, half, .. } = *self.plan;
-        let mut any = false;
+        let mut has_candidates = false;
         for place in 0.. {
             let (column, look) = self.flagged[place];
             if look == 0 {
@@ -157,11 +160,11 @@ impl<'a> Lanes<'a> {
                     dips &= chain.can_close(simd, column);
                 }
             }
-            any |= below | dips != 0;
+            has_candidates |= below | dips != 0;
             let part = Part { start: -half, end: half, after: -half, just_hit: false, tame: false };
             self.find(slot, column, [below, dips, tame], part, step.middle);
         }
-        any
+        has_candidates
     }
 
     /// Makes candidates of gaps that are below zero at the end of a part of the step, and decides
@@ -181,10 +184,11 @@ impl<'a> Lanes<'a> {
         while bits != 0 {
             let lane = bits.trailing_zeros() as usize;
             bits &= bits - 1;
-            let is = |bits: u8| bits >> lane & 1 == 1;
-            let part = || Part { just_hit: part.just_hit && lane == 1, tame: is(tame), ..part };
+            let has_lane = |bits: u8| bits >> lane & 1 == 1;
+            let part =
+                || Part { just_hit: part.just_hit && lane == 1, tame: has_lane(tame), ..part };
             let gap = chain.gap(column + lane);
-            if is(below) {
+            if has_lane(below) {
                 self.candidates.push(chain.amplitudes(gap), slot, gap, part());
             } else {
                 chain.decide(self.plan, middle, gap, part());
@@ -196,12 +200,12 @@ impl<'a> Lanes<'a> {
     #[inline(always)]
     fn advance<S: Simd>(&mut self, simd: S, step: &Step, times: [f64; 2]) {
         let mut left = 0;
-        for place in 0..self.todo.len() {
-            let slot = self.todo[place];
-            self.todo[left] = slot;
+        for place in 0..self.pending.len() {
+            let slot = self.pending[place];
+            self.pending[left] = slot;
             left += usize::from(self.impact(simd, slot, step, times));
         }
-        self.todo.truncate(left);
+        self.pending.truncate(left);
     }
 
     /// Lets the gap with the earliest root be hit; returns whether there is one until the end.
@@ -216,7 +220,7 @@ impl<'a> Lanes<'a> {
             let closing_speed = now.speed * plan.speed;
             chain.watch.count(Impact { time, gap: now.gap + plan.first, closing_speed });
         }
-        if time > end || time > plan.enough {
+        if time > end || time > plan.end_after {
             chain.end();
             return false;
         }
@@ -240,8 +244,8 @@ impl<'a> Lanes<'a> {
             chain.hand_over();
             return true;
         }
-        let on = free.simd_gt(chain.four(simd, REACH, column)).to_bitmask() as u8 & 0b111;
-        chain.activate(column, usize::from(on));
+        let can_close = free.simd_gt(chain.four(simd, REACH, column)).to_bitmask() as u8 & 0b111;
+        chain.activate(column, usize::from(can_close));
         if plan.ring && (column < 2 || column + 3 > chain.gaps) {
             chain.copy_ends(column..column + 3);
         }
@@ -249,8 +253,8 @@ impl<'a> Lanes<'a> {
         let below = f.simd_lt(0.0).to_bitmask() as u8 & 0b111;
         let ends = [f, slope(parts, step.end, plan.ratio), bend];
         let (opening, left) = (now.speed * plan.restitution, plan.half - now.s);
-        let least = least(simd, ends, [tame, weights.simd_lt(0.0)], opening, left);
-        let dips = least.simd_le(MARGIN).to_bitmask() as u8 & on & !below;
+        let width = least_width(simd, ends, [tame, weights.simd_lt(0.0)], opening, left);
+        let dips = width.simd_le(MARGIN).to_bitmask() as u8 & can_close & !below;
         let tame = tame.to_bitmask() as u8;
         let after = now.s + blur(now.speed);
         let part = Part { start: now.s, end: plan.half, after, just_hit: true, tame: false };
@@ -259,8 +263,8 @@ impl<'a> Lanes<'a> {
     }
 }
 
-/// Does this in a function of its own, for its registers.
+/// Calls a closure in a function of its own, which then has all registers.
 #[inline(never)]
-fn apart<S: Simd, R>(simd: S, does: impl FnOnce() -> R) -> R {
-    simd.vectorize(does)
+fn call_apart<S: Simd, R>(simd: S, closure: impl FnOnce() -> R) -> R {
+    simd.vectorize(closure)
 }

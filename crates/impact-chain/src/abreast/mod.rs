@@ -6,7 +6,6 @@
 //! of all others are located together, and each chain then goes from impact to impact within the
 //! step. What these proofs do not cover is left to the engine, chain by chain and whole: slow
 //! impacts and contact, adjacent impacts whose order rounding cannot tell, dips near zero.
-//!
 
 mod grid;
 mod lanes;
@@ -16,8 +15,8 @@ mod roots;
 mod slot;
 
 use crate::forcing::gap_amplitudes;
-use crate::vectors::level;
-use crate::{Boundary, Chain, Counts, Protocol, Scenario, Watch};
+use crate::vectors::vector_level;
+use crate::{Boundary, Chain, Counts, Engine, Error, Protocol, Scenario, Watch};
 use fearless_simd::{Level, dispatch};
 use grid::Grid;
 use lanes::Lanes;
@@ -51,11 +50,60 @@ pub struct Abreast {
 /// A realisation that was simulated to its end.
 pub struct Realisation(Slot);
 
+/// Counts the impacts of many realisations of a chain: side by side, or by the engine where that
+/// cannot be.
+#[derive(Clone, Debug)]
+pub struct Counting {
+    chain: Chain,
+    windows: Vec<Protocol>,
+    until: f64,
+    abreast: Option<Abreast>,
+}
+
+impl Counting {
+    /// Prepares runs of a chain through the windows that end by `until`.
+    #[must_use]
+    pub fn new(chain: &Chain, windows: &[Protocol], until: f64) -> Counting {
+        let abreast = Abreast::new(chain, windows, until);
+        Counting { chain: chain.clone(), windows: windows.to_vec(), until, abreast }
+    }
+
+    /// Counts realisations, in their order; incomplete when `stopped` returns true. Each has its
+    /// index and its scenario, or `None` if the engine has to do it, which `engine` creates for an
+    /// index.
+    ///
+    /// # Errors
+    /// Those of [`Watch::run`].
+    pub fn run(
+        &self,
+        starts: Vec<(u64, Option<Scenario>)>,
+        engine: impl Fn(u64) -> Result<Engine, Error>,
+        stopped: &dyn Fn() -> bool,
+    ) -> Result<Vec<(Counts, Watch)>, Error> {
+        let (indices, scenarios): (Vec<u64>, Vec<Option<Scenario>>) = starts.into_iter().unzip();
+        let has_scenario: Vec<bool> = scenarios.iter().map(Option::is_some).collect();
+        let scenarios: Vec<Scenario> = scenarios.into_iter().flatten().collect();
+        let abreast = self.abreast.as_ref();
+        let mut runs = abreast.map_or(Vec::new(), |many| many.run(&scenarios, stopped)).into_iter();
+        let count = |(index, has_scenario)| {
+            let run = if has_scenario { runs.next().flatten() } else { None };
+            if let Some(mut run) = run {
+                return Ok((run.counts(), run.0.watch));
+            }
+            let mut watch = Watch::new(&self.chain, &self.windows);
+            let counts = watch.run(engine(index), index, self.until, stopped)?;
+            Ok((counts, watch))
+        };
+        indices.into_iter().zip(has_scenario).map(count).collect()
+    }
+}
+
 impl Abreast {
     /// Prepares runs of a chain through the windows that end by `until`, or to `until` if there are
     /// no windows. Returns `None` if all of them are left to the engine: with r near 0, where
     /// masses stick, r = 1, where it keeps the energy, rings of one or two masses, and very long
     /// runs.
+    #[must_use]
     pub fn new(chain: &Chain, windows: &[Protocol], until: f64) -> Option<Abreast> {
         let frequencies = [chain.natural_frequency, chain.forcing_frequency];
         let mut watch = Watch::new(chain, windows);
@@ -79,12 +127,13 @@ impl Abreast {
     /// has to do is not ended.
     #[must_use]
     pub fn until_first_after(mut self, time: f64) -> Abreast {
-        self.plan.enough = time;
+        self.plan.end_after = time;
         self
     }
 
     /// Returns how many realisations of a chain are best simulated together.
-    pub fn number(chain: &Chain) -> usize {
+    #[must_use]
+    pub fn batch_size(chain: &Chain) -> usize {
         (MASSES / chain.masses.max(1)).clamp(1, 16)
     }
 
@@ -95,7 +144,7 @@ impl Abreast {
         scenarios: &[Scenario],
         stopped: &dyn Fn() -> bool,
     ) -> Vec<Option<Realisation>> {
-        self.run_at(level(), scenarios, stopped)
+        self.run_at(vector_level(), scenarios, stopped)
     }
 
     fn run_at(
@@ -146,13 +195,9 @@ impl Realisation {
         Counts { by_engine: 0, ..self.0.watch.complete() }
     }
 
-    /// Returns which gaps had an impact in one of the windows, or `None` for another window.
-    pub fn hit(&self, window: &Protocol) -> Option<Vec<bool>> {
-        self.0.watch.hit(window)
-    }
-
     /// Returns free parts (a_j, b_j) of the masses at the end that give the same gaps; on a ring
     /// those of the first mass are zero.
+    #[must_use]
     pub fn free_parts(&self, chain: &Chain) -> Vec<[f64; 2]> {
         let first = usize::from(chain.boundary == Boundary::Ring);
         let mut sum = [0.0; 2];
@@ -171,20 +216,19 @@ impl Realisation {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::NormalPairs;
+    use crate::{NormalPairs, Seed};
     use fearless_simd::Simd;
 
     /// A realisation that ends early has the impacts of the whole one up to the first after a time.
     #[test]
     fn realisations_end_with_the_impact_that_is_asked_for() {
         let chain = Chain { masses: 30, ..Chain::default() };
-        let all: Vec<Scenario> = (0..16)
-            .map(|i| Scenario::draw(&chain, 0.2, &mut NormalPairs::new("first", 1, i)))
-            .collect();
+        let draw = |i| Scenario::draw(&chain, 0.2, &mut NormalPairs::new("first", Seed(1), i));
+        let scenarios: Vec<Scenario> = (0..16).map(draw).collect();
         let many = Abreast::new(&chain, &[], 60.0).unwrap();
         let early = many.clone().until_first_after(30.0);
         let mut after = 0;
-        for (run, scenario) in early.run(&all, &|| false).into_iter().zip(&all) {
+        for (run, scenario) in early.run(&scenarios, &|| false).into_iter().zip(&scenarios) {
             let mut expected = 0;
             let mut engine = crate::Engine::new(scenario).unwrap();
             while let Some(impact) = engine.next_impact(60.0).unwrap() {
@@ -198,7 +242,7 @@ mod tests {
             after += usize::from(expected > 0);
         }
         assert!(after > 8);
-        assert_eq!(Abreast::number(&Chain { masses: 200, ..chain }), 8);
+        assert_eq!(Abreast::batch_size(&Chain { masses: 200, ..chain }), 8);
     }
 
     /// The tests side by side tell of nearly all gaps: few are decided by themselves.
@@ -208,12 +252,15 @@ mod tests {
             [(0.3, 2.0_f64.sqrt(), 0.06), (0.3, 0.6, 0.05), (1.0, 2.3, 0.09)]
         {
             let chain = Chain { masses: 30, forcing_frequency: frequency, ..Chain::default() };
-            let draw = |i| Scenario::draw(&chain, sigma, &mut NormalPairs::new("decided", 1, i));
-            let all: Vec<Scenario> = (0..16).map(draw).collect();
-            let runs = Abreast::new(&chain, &[], 100.0).unwrap().run(&all, &|| false);
-            let of = |run: &mut Realisation| [run.counts().total.impacts, run.0.decided];
-            let sums = runs.into_iter().flatten().map(|mut run| of(&mut run));
-            let [impacts, decided] = sums.fold([0; 2], |[a, b], [x, y]| [a + x, b + y]);
+            let draw =
+                |i| Scenario::draw(&chain, sigma, &mut NormalPairs::new("decided", Seed(1), i));
+            let scenarios: Vec<Scenario> = (0..16).map(draw).collect();
+            let runs = Abreast::new(&chain, &[], 100.0).unwrap().run(&scenarios, &|| false);
+            let [mut impacts, mut decided] = [0; 2];
+            for mut run in runs.into_iter().flatten() {
+                impacts += run.counts().total.impacts;
+                decided += run.0.decided;
+            }
             assert!(
                 decided > 0 && (decided as f64) < share * impacts as f64,
                 "{decided} {impacts}"
@@ -234,22 +281,21 @@ mod tests {
                 .flatten(),
         );
         let chain = Chain { masses: 30, ..Chain::default() };
-        let all: Vec<Scenario> = (0..16)
-            .map(|i| Scenario::draw(&chain, 0.3, &mut NormalPairs::new("bits", 1, i)))
-            .collect();
+        let draw = |i| Scenario::draw(&chain, 0.3, &mut NormalPairs::new("bits", Seed(1), i));
+        let scenarios: Vec<Scenario> = (0..16).map(draw).collect();
         let many = Abreast::new(&chain, &[], 300.0).unwrap();
         let bits = |run: Option<Realisation>| {
             let parts = run.map(|run| run.free_parts(&chain)).unwrap_or_default();
             parts.into_iter().flatten().map(f64::to_bits).collect::<Vec<u64>>()
         };
-        let bits_at = |level, some: &[Scenario]| -> Vec<Vec<u64>> {
-            many.run_at(level, some, &|| false).into_iter().map(bits).collect()
+        let bits_at = |level, scenarios: &[Scenario]| -> Vec<Vec<u64>> {
+            many.run_at(level, scenarios, &|| false).into_iter().map(bits).collect()
         };
-        let expected = bits_at(best, &all);
+        let expected = bits_at(best, &scenarios);
         assert!(expected.iter().flatten().count() > 800);
         for level in levels {
-            let alone = all.iter().flat_map(|one| bits_at(level, std::slice::from_ref(one)));
-            assert!(alone.eq(expected.iter().cloned()) && bits_at(level, &all) == expected);
+            let alone = scenarios.chunks(1).flat_map(|scenario| bits_at(level, scenario));
+            assert!(alone.eq(expected.iter().cloned()) && bits_at(level, &scenarios) == expected);
         }
     }
 }

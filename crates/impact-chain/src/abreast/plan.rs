@@ -25,7 +25,7 @@ pub struct Plan {
     pub weights: Vec<[f64; 4]>,
     pub ring: bool,
     /// A chain ends with its first impact after this time.
-    pub enough: f64,
+    pub end_after: f64,
 }
 
 impl Plan {
@@ -52,7 +52,7 @@ impl Plan {
             neighbours: gaps.clone().map(neighbours).collect(),
             weights: gaps.map(weights).collect(),
             ring: chain.boundary == Boundary::Ring,
-            enough: f64::INFINITY,
+            end_after: f64::INFINITY,
         }
     }
 }

@@ -28,7 +28,7 @@ pub fn blur(speed: f64) -> f64 {
 /// It is above the line from zero at that rate, or of a neighbour the tangent at the end, less M₂
 /// s²/2 if it is not tame.
 #[inline(always)]
-pub fn least<S: Simd>(
+pub fn least_width<S: Simd>(
     simd: S,
     [f, rate, bend]: [f64x4<S>; 3],
     [is_tame, is_hit]: [mask64x4<S>; 2],
@@ -97,7 +97,7 @@ impl Local {
     }
 
     /// Returns f and f' at s, to rounding for |s| and ρ|s| up to 1/4.
-    fn at(&self, s: f64) -> [f64; 2] {
+    fn width_and_rate(&self, s: f64) -> [f64; 2] {
         let (cos, sin) = cos_sin(s);
         let (forced_cos, forced_sin) = cos_sin(self.ratio * s);
         let f = 1.0
@@ -131,7 +131,7 @@ impl Local {
 
     /// Whether a test of both ends proves that there is no root.
     fn is_open(&self, Part { start, end, just_hit, tame, .. }: Part) -> bool {
-        let ([f0, rate0], [f1, rate1]) = (self.at(start), self.at(end));
+        let ([f0, rate0], [f1, rate1]) = (self.width_and_rate(start), self.width_and_rate(end));
         if f1 <= MARGIN || !just_hit && f0 <= MARGIN {
             return false;
         }
@@ -159,7 +159,7 @@ impl Local {
         let bend = self.bend();
         let mut s = start;
         for turn in 0..TURNS {
-            let [f, rate] = self.at(s);
+            let [f, rate] = self.width_and_rate(s);
             let opens = just_hit && turn == 0;
             let width = f - MARGIN;
             if opens {
@@ -175,7 +175,7 @@ impl Local {
                     return Outcome::Unsure;
                 }
                 let polished = |s: f64| {
-                    let [f, rate] = self.at(s);
+                    let [f, rate] = self.width_and_rate(s);
                     (s - f / rate, rate)
                 };
                 let (s, rate) = polished(polished(polished(s).0).0);
@@ -212,14 +212,14 @@ pub fn cos_sin(x: f64) -> (f64, f64) {
 mod tests {
     use super::*;
     use fearless_simd::{Level, dispatch};
-    use impact_numerics::random::NormalPairs;
+    use impact_numerics::random::{NormalPairs, Seed};
     use impact_numerics::roots::bracket;
 
     /// Returns the gap with a forced part, and with this width and rate at s.
-    fn with(width: f64, rate: f64, at: f64, [v, z]: [f64; 2], ratio: f64) -> Local {
-        let forced = Local { u: 0.0, q: 0.0, v, z, ratio }.at(at);
+    fn gap_with(width: f64, rate: f64, s: f64, [v, z]: [f64; 2], ratio: f64) -> Local {
+        let forced = Local { u: 0.0, q: 0.0, v, z, ratio }.width_and_rate(s);
         let (free, free_rate) = (width - forced[0], rate - forced[1]);
-        let (cos, sin) = cos_sin(at);
+        let (cos, sin) = cos_sin(s);
         let (u, q) = (free * cos - free_rate * sin, free * sin + free_rate * cos);
         Local { u, q, v, z, ratio }
     }
@@ -230,7 +230,7 @@ mod tests {
     fn dips_of_known_depth() {
         let (half, mut seen) = (0.125, [0; 4]);
         for i in 0..60_000u64 {
-            let mut normals = NormalPairs::new("dips", 1, i);
+            let mut normals = NormalPairs::new("dips", Seed(1), i);
             let ([size, place], [v, z]) = (normals.pair(), normals.pair());
             let ratio = [0.6, 1.4, 1.9][i as usize % 3];
             let depth = 10.0_f64.powi(-1 - (i / 3 % 11) as i32) * [1.0, -1.0][i as usize / 33 % 2];
@@ -238,30 +238,31 @@ mod tests {
             let start = if i % 2 == 0 { -half } else { (0.05 * place).clamp(-half, 0.1) };
             let forced = [v, z].map(|x| x * (0.4 * size).abs());
             let gap = if just_hit {
-                with(0.0, depth.abs().max(2.0 * SLOW), start, forced, ratio)
+                gap_with(0.0, depth.abs().max(2.0 * SLOW), start, forced, ratio)
             } else {
-                with(depth, 0.0, start + (half - start) * (0.5 + 0.3 * place), forced, ratio)
+                gap_with(depth, 0.0, start + (half - start) * (0.5 + 0.3 * place), forced, ratio)
             };
             let reach = ratio * ratio * forced[0].hypot(forced[1] / ratio);
             let tame = (ratio * ratio - 1.0).abs() / (ratio * ratio) * reach
                 + 0.5 * gap.bend() * (2.0 * half) * (2.0 * half)
                 < 1.0;
-            if !just_hit && gap.at(start)[0] <= 0.0 {
+            if !just_hit && gap.width_and_rate(start)[0] <= 0.0 {
                 continue;
             }
             let outcome = gap.first_root(Part { start, end: half, after: start, just_hit, tame });
             let until = if let Outcome::Root { s, .. } = outcome { s } else { half };
             let sample = |k: u32| start + (until - start) * f64::from(k) / 1000.0;
-            let least = (1..1000).map(|k| gap.at(sample(k))[0]).fold(f64::INFINITY, f64::min);
+            let least =
+                (1..1000).map(|k| gap.width_and_rate(sample(k))[0]).fold(f64::INFINITY, f64::min);
             match outcome {
                 Outcome::Open => assert!(least > 0.0, "{i} {depth:e} {least:e}"),
                 Outcome::Root { s, speed } => {
                     assert!(
-                        least > -1e-12 && gap.at(s)[0].abs() < 1e-14,
+                        least > -1e-12 && gap.width_and_rate(s)[0].abs() < 1e-14,
                         "{i} {depth:e} {least:e}"
                     );
                     assert!(
-                        (speed + gap.at(s)[1]).abs() < 1e-9 && speed > 0.9 * SLOW,
+                        (speed + gap.width_and_rate(s)[1]).abs() < 1e-9 && speed > 0.9 * SLOW,
                         "{i} {speed}"
                     );
                 }
@@ -288,10 +289,11 @@ mod tests {
         let (start, end) = (-0.125, 0.125);
         let part = Part { start, end, after: start, just_hit: false, tame: false };
         for (rate, at, v) in [(0.0, 0.03, 0.0), (-0.1, 0.0, 0.34), (0.1, 0.0, 0.34)] {
-            let gap = |width: f64| with(width, rate, at, [v, 0.0], 2.0);
+            let gap = |width: f64| gap_with(width, rate, at, [v, 0.0], 2.0);
             let height = |width: f64| {
                 let gap = gap(width);
-                let ([f0, rate0], [f1, rate1]) = (gap.at(start), gap.at(end));
+                let ([f0, rate0], [f1, rate1]) =
+                    (gap.width_and_rate(start), gap.width_and_rate(end));
                 let bend = gap.u.hypot(gap.q) + 4.0 * gap.v.hypot(gap.z / 2.0);
                 match v {
                     0.0 => f0 + rate0 * (f1 - f0 - 0.25 * rate1) / (rate0 - rate1),
@@ -309,9 +311,9 @@ mod tests {
             (0.5, 2.0, start, 2.0, tame),
             (0.5, -2.0, end, 2.0, tame),
         ] {
-            assert!(with(width, rate, at, [v, 0.0], 2.0).is_open(part), "{width} {rate}");
+            assert!(gap_with(width, rate, at, [v, 0.0], 2.0).is_open(part), "{width} {rate}");
         }
-        assert!(!with(0.9 * MARGIN, 0.1, start, [0.0; 2], 2.0).is_open(part));
+        assert!(!gap_with(0.9 * MARGIN, 0.1, start, [0.0; 2], 2.0).is_open(part));
     }
 
     /// A dip that turns 1.05e-12 above zero, steeply on both sides, is no root.
@@ -333,7 +335,7 @@ mod tests {
             let four = |row: [f64; 4]| f64x4::from_slice(simd, &row);
             let ends = [[5.0; 4], [2.0, 2.0, 2.0, -2.0], [3.0; 4]].map(four);
             let masks = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0]].map(|row| four(row).simd_gt(0.0));
-            let widths = least(simd, ends, masks, 7.0, 0.5).to_array();
+            let widths = least_width(simd, ends, masks, 7.0, 0.5).to_array();
             assert_eq!(widths, [4.0, 3.125, 3.625, 4.625]);
         });
     }

@@ -12,20 +12,20 @@ pub struct Candidates {
     /// Amplitudes of eight candidates each, or of none: f = 1 has no root.
     eights: Vec<[[f64; 8]; 4]>,
     /// Slots and gaps, with the parts of the step where their roots are.
-    who: Vec<(usize, usize, Part)>,
+    members: Vec<(usize, usize, Part)>,
 }
 
 impl Candidates {
     #[inline(always)]
     pub fn push(&mut self, amplitudes: [f64; 4], slot: usize, gap: usize, part: Part) {
-        let (eight, lane) = (self.who.len() / 8, self.who.len() % 8);
+        let (eight, lane) = (self.members.len() / 8, self.members.len() % 8);
         if lane == 0 {
             self.eights.push([[0.0; 8]; 4]);
         }
         for (row, amplitude) in self.eights[eight].iter_mut().zip(amplitudes) {
             row[lane] = amplitude;
         }
-        self.who.push((slot, gap, part));
+        self.members.push((slot, gap, part));
     }
 
     /// Locates the first roots of all candidates, eight at a time.
@@ -37,10 +37,10 @@ impl Candidates {
         let Plan { ratio, restitution, half, .. } = *plan;
         let [cos, sin, forced_cos, forced_sin] = middle;
         let (zero, last) = (f64x8::splat(simd, 0.0), f64x8::splat(simd, half));
-        for ([a, b, c, d], who) in self.eights.iter().zip(self.who.chunks(8)) {
+        for ([a, b, c, d], members) in self.eights.iter().zip(self.members.chunks(8)) {
             let row = |row| f64x8::from_slice(simd, row);
             let [a, b, c, d] = [row(a), row(b), row(c), row(d)];
-            let start = |lane: usize| who.get(lane).map_or(-half, |(.., part)| part.start);
+            let start = |lane: usize| members.get(lane).map_or(-half, |(.., part)| part.start);
             let start = f64x8::from_fn(simd, start);
             let (u, q) = (a * cos + b * sin, b * cos - a * sin);
             let (v, z) =
@@ -78,7 +78,7 @@ impl Candidates {
             let (s, speed) = (s.as_slice(), (fall * -1.0).to_array());
             let by_sine = (jump * (co * sin + si * cos)).to_array();
             let by_cosine = (jump * (co * cos - si * sin)).to_array();
-            for (lane, &(slot, gap, part)) in who.iter().enumerate() {
+            for (lane, &(slot, gap, part)) in members.iter().enumerate() {
                 let chain = &mut slots[slot];
                 if (part.tame || definite >> lane & 1 == 1) && sure >> lane & 1 == 1 {
                     let jump = [by_sine[lane], by_cosine[lane]];
@@ -90,7 +90,7 @@ impl Candidates {
             }
         }
         self.eights.clear();
-        self.who.clear();
+        self.members.clear();
     }
 }
 

@@ -36,7 +36,7 @@ pub struct Root {
     pub jump: [f64; 2],
 }
 
-/// One chain.
+/// One of the chains that are simulated side by side.
 pub struct Slot {
     /// A gap in each column. The column before gap 0 and that after the last gap are of no gap
     /// between walls, and copies of the last and the first gap on a ring, with a SAG of −1.

@@ -25,17 +25,17 @@ use crate::search::earliest::Earliest;
 pub struct Advancement {
     /// Width of a closing gap, in units of d, at which it is hit.
     pub tolerance: f64,
-    /// No impact leaves a gap opening more slowly.
-    pub stop: f64,
+    /// The speed with which an impact opens its gap at least.
+    pub least_rebound: f64,
 }
 
 impl Rival for Advancement {
     const NAME: &'static str = "advancement";
 
     fn begin(&self, task: Task) -> Result<Run, Error> {
-        let (scenario, start, until) = task;
+        let Task { scenario, start, until } = task;
         let mut flights = Flights::new(task)?;
-        flights.stop = self.stop;
+        flights.least_rebound = self.least_rebound;
         check_tolerance(self.tolerance)?;
         let gaps = flights.topology.gaps();
         let mut queue = Earliest::new(gaps);
@@ -44,7 +44,7 @@ impl Rival for Advancement {
         }
         let mut gaps = Gaps { flights, queue, reached: self.tolerance * scenario.spacing };
         Ok(Box::new(move |tally| {
-            tally.stopping_at(gaps.flights.stop);
+            tally.limit_chatter(gaps.flights.least_rebound);
             gaps.advance(Instant::at(until), tally)
         }))
     }

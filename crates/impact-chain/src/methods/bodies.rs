@@ -15,8 +15,8 @@ pub struct Bodies {
     pub topology: Topology,
     pub spacing: f64,
     pub restitution: f64,
-    /// No impact leaves a gap opening more slowly.
-    pub stop: f64,
+    /// The speed with which an impact opens its gap at least.
+    pub least_rebound: f64,
     /// ω².
     pub stiffness: f64,
     forcing: Vec<Component>,
@@ -30,7 +30,7 @@ pub struct Bodies {
 }
 
 impl Bodies {
-    pub fn new((scenario, start, _): Task) -> Result<Bodies, Error> {
+    pub fn new(Task { scenario, start, .. }: Task) -> Result<Bodies, Error> {
         scenario.check_uniform()?;
         let u = start.displacements(scenario)?;
         let masses = scenario.forcing.len();
@@ -39,7 +39,7 @@ impl Bodies {
             topology: Topology::new(masses, scenario.boundary),
             spacing: scenario.spacing,
             restitution: scenario.restitution,
-            stop: 0.0,
+            least_rebound: 0.0,
             stiffness: scenario.natural_frequency * scenario.natural_frequency,
             phases: phases(&forcing, Instant::at(start.time)),
             forcing,
@@ -70,7 +70,7 @@ impl Bodies {
 
     pub fn hit(&mut self, k: usize, speed: f64) {
         let [left, right] = self.topology.sides(k);
-        let change = speed + (self.restitution * speed).max(self.stop);
+        let change = speed + (self.restitution * speed).max(self.least_rebound);
         let jumps = jumps(change, 0.0, self.topology.inverse_masses(k));
         self.v[left] += jumps[0];
         self.v[right] += jumps[1];
@@ -90,12 +90,12 @@ impl Bodies {
     }
 
     /// Computes the accelerations in flight at displacements `u` and an instant; walls have none.
-    pub fn accelerations(&self, at: Instant, u: &[f64], out: &mut [f64]) {
-        for (out, u) in out.iter_mut().zip(u) {
-            *out = -self.stiffness * u;
+    pub fn accelerations(&self, instant: Instant, u: &[f64], accelerations: &mut [f64]) {
+        for (acceleration, u) in accelerations.iter_mut().zip(u) {
+            *acceleration = -self.stiffness * u;
         }
-        for (component, (sin, cos)) in self.forcing.iter().zip(phases(&self.forcing, at)) {
-            add_forces(component, [cos, sin], out);
+        for (component, (sin, cos)) in self.forcing.iter().zip(phases(&self.forcing, instant)) {
+            add_forces(component, [cos, sin], accelerations);
         }
     }
 
@@ -130,15 +130,16 @@ impl Bodies {
     #[inline(always)]
     pub fn acceleration(&self, m: usize) -> f64 {
         let forces = self.forcing.iter().zip(&self.phases);
-        let sum =
-            forces.fold(0.0, |sum, (of, (sin, cos))| sum + (of.cos[m] * cos + of.sin[m] * sin));
+        let sum = forces.fold(0.0, |sum, (component, (sin, cos))| {
+            sum + (component.cos[m] * cos + component.sin[m] * sin)
+        });
         sum - self.stiffness * self.u[m]
     }
 
     /// Lists the gaps that are shut at displacements `u`, in their order.
     #[inline(always)]
-    pub fn shut<S: Simd>(&self, simd: S, u: &[f64], found: &mut Vec<usize>) {
-        found.clear();
+    pub fn shut<S: Simd>(&self, simd: S, u: &[f64], shut: &mut Vec<usize>) {
+        shut.clear();
         // Neighbours in the array are neighbours in the row; a ring has one gap more.
         let first = self.topology.sides(0)[0];
         let bodies = &u[first..u.len() - first];
@@ -149,13 +150,13 @@ impl Bodies {
             let [left, right] = [left, right].map(|x| f64x8::from_slice(simd, x));
             let mut bits = ((right - left) + self.spacing).simd_le(0.0).to_bitmask();
             while bits != 0 {
-                found.push(from + bits.trailing_zeros() as usize);
+                shut.push(from + bits.trailing_zeros() as usize);
                 bits &= bits - 1;
             }
         }
-        found.extend((rest..gaps).filter(|&k| self.spacing + (bodies[k + 1] - bodies[k]) <= 0.0));
+        shut.extend((rest..gaps).filter(|&k| self.spacing + (bodies[k + 1] - bodies[k]) <= 0.0));
         if gaps < self.topology.gaps() && self.width_at(gaps, u) <= 0.0 {
-            found.push(gaps);
+            shut.push(gaps);
         }
     }
 
@@ -166,9 +167,9 @@ impl Bodies {
 
 /// Adds the forces of a component, given the factors of its amplitudes.
 #[inline(always)]
-fn add_forces(component: &Component, [c, s]: [f64; 2], out: &mut [f64]) {
-    for (out, (cos, sin)) in out.iter_mut().zip(component.cos.iter().zip(&component.sin)) {
-        *out += c * cos + s * sin;
+fn add_forces(component: &Component, [c, s]: [f64; 2], sums: &mut [f64]) {
+    for (sum, (cos, sin)) in sums.iter_mut().zip(component.cos.iter().zip(&component.sin)) {
+        *sum += c * cos + s * sin;
     }
 }
 
@@ -190,10 +191,10 @@ fn step(
     }
 }
 
-/// Adds an impulse, or what follows from one, that opens gap k.
-pub fn push(topology: &Topology, k: usize, impulse: f64, out: &mut [f64]) {
+/// Changes velocities (or displacements) by an impulse (or that times a time) that opens gap k.
+pub fn push(topology: &Topology, k: usize, impulse: f64, velocities: &mut [f64]) {
     let [left, right] = topology.sides(k);
     let [inverse_left, inverse_right] = topology.inverse_masses(k);
-    out[left] -= impulse * inverse_left;
-    out[right] += impulse * inverse_right;
+    velocities[left] -= impulse * inverse_left;
+    velocities[right] += impulse * inverse_right;
 }

@@ -21,10 +21,10 @@ impl Method for Certified {
         "certified"
     }
 
-    fn run(&self, (scenario, start, until): Task, sink: Sink) -> Result<Cost, Error> {
-        check_end(until)?;
-        let mut engine = Engine::from_state(scenario, start)?;
-        engine.run(until, |event, _| match event {
+    fn run(&self, task: Task, sink: Sink) -> Result<Cost, Error> {
+        check_end(task)?;
+        let mut engine = Engine::from_state(task.scenario, task.start)?;
+        engine.run(task.until, |event, _| match event {
             Event::Impact(impact) if !sink(*impact) => Break(()),
             _ => Continue(()),
         })?;

@@ -21,21 +21,22 @@ pub struct Flights {
     pub topology: Topology,
     pub spacing: f64,
     pub restitution: f64,
-    /// No impact leaves a gap opening more slowly.
-    pub stop: f64,
-    omega: f64,
+    /// The speed with which an impact opens its gap at least.
+    pub least_rebound: f64,
+    pub omega: f64,
     /// ω, in turns.
     turns: Rate,
     /// Free parts (a_j, b_j) of all bodies; 0 for the walls.
-    free: Vec<[f64; 2]>,
-    forced: Vec<Component>,
+    pub free: Vec<[f64; 2]>,
+    /// The responses to the components of the forcing.
+    pub forced: Vec<Component>,
 }
 
 /// (sin, cos) of ωt and of each Ωt.
 pub type FlightPhases = ((f64, f64), Phases);
 
 impl Flights {
-    pub fn new((scenario, start, _): Task) -> Result<Flights, Error> {
+    pub fn new(Task { scenario, start, .. }: Task) -> Result<Flights, Error> {
         scenario.check_uniform()?;
         let u = start.displacements(scenario)?;
         let w = scenario.natural_frequency;
@@ -43,7 +44,7 @@ impl Flights {
             topology: Topology::new(scenario.forcing.len(), scenario.boundary),
             spacing: scenario.spacing,
             restitution: scenario.restitution,
-            stop: 0.0,
+            least_rebound: 0.0,
             omega: w,
             turns: Rate::new(w),
             free: vec![[0.0; 2]; u.len()],
@@ -59,8 +60,8 @@ impl Flights {
         Ok(flights)
     }
 
-    pub fn phases(&self, at: Instant) -> FlightPhases {
-        (self.turns.sin_cos(at), phases(&self.forced, at))
+    pub fn phases(&self, instant: Instant) -> FlightPhases {
+        (self.turns.sin_cos(instant), phases(&self.forced, instant))
     }
 
     /// Returns the forced response of the right body less that of the left one, and its rate.
@@ -96,7 +97,7 @@ impl Flights {
         let free = length(free_right[0] - free_left[0], free_right[1] - free_left[1]);
         let (mut reach, mut curvature) = (free, self.omega * self.omega * free);
         for part in &self.forced {
-            let [c, s] = [&part.cos, &part.sin].map(|all| all[right] - all[left]);
+            let [c, s] = [&part.cos, &part.sin].map(|of_bodies| of_bodies[right] - of_bodies[left]);
             reach += length(c, s);
             curvature += part.frequency * part.frequency * length(c, s);
         }
@@ -105,7 +106,7 @@ impl Flights {
 
     /// Applies the impact law at gap k to the free parts. Returns the rate at which the gap opens.
     pub fn hit(&mut self, k: usize, speed: f64, phases: &FlightPhases) -> f64 {
-        let rebound = (self.restitution * speed).max(self.stop);
+        let rebound = (self.restitution * speed).max(self.least_rebound);
         let sides = self.topology.sides(k);
         let inverse = self.topology.inverse_masses(k);
         let (sin, cos) = phases.0;

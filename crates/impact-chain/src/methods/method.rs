@@ -1,6 +1,6 @@
 //! Defines the trait of all ways to simulate a chain.
 
-use crate::impact::{Impact, Sink, collect};
+use crate::impact::{Impact, Sink, collect_impacts};
 use crate::{Error, Graze, Scenario, State};
 
 /// What no other crate can implement.
@@ -18,21 +18,30 @@ pub struct Cost {
     pub evaluations: u64,
     /// Impacts at exactly the same instant as one of a neighbouring gap, which no rival detects.
     pub simultaneous: u64,
-    /// Dips of gaps that rounding could not decide, and the first of them; no rival detects them.
+    /// Dips of gaps that rounding could not decide, which no rival detects.
     pub undecided: u64,
-    /// The first of these dips.
+    /// The first of these dips, or `None` if there is no such dip.
     pub first_graze: Option<Graze>,
 }
 
 impl Cost {
     /// Returns the evaluations of an impact, or `None` without impacts.
+    #[must_use]
     pub fn evaluations_per_impact(&self) -> Option<f64> {
         (self.impacts > 0).then(|| self.evaluations as f64 / self.impacts as f64)
     }
 }
 
-/// A chain, the state from which it starts (not the scenario's), and the time until which it runs.
-pub type Task<'a> = (&'a Scenario, &'a State, f64);
+/// A run: of which chain, from where, and until when.
+#[derive(Clone, Copy, Debug)]
+pub struct Task<'a> {
+    /// The chain.
+    pub scenario: &'a Scenario,
+    /// The state from which the run starts, at its time, whatever the start of the scenario is.
+    pub start: &'a State,
+    /// The time of the end, from that of the start to [`LATEST`](crate::LATEST).
+    pub until: f64,
+}
 
 /// A way to simulate a chain. Only this crate has some: another may not rely on their parts.
 pub trait Method: Sealed + Sync {
@@ -45,18 +54,24 @@ pub trait Method: Sealed + Sync {
     /// A gap of the start that is shut up to rounding counts as shut; it is hit if it is closing.
     ///
     /// # Errors
-    /// [`Error::Input`] for a scenario, start, step or tolerance outside the model,
+    /// [`Error::Input`] for a scenario, start, end, step or tolerance outside the model,
     /// [`Error::Overlap`] for an overlapping start, [`Error::Work`] when a bound on work is
     /// exceeded.
     fn run(&self, task: Task, sink: Sink) -> Result<Cost, Error>;
 
-    /// Returns the first impact, or none if there is no impact.
+    /// Returns the first impact, or `None` if there is no impact.
+    ///
+    /// # Errors
+    /// Those of [`run`](Method::run).
     fn first(&self, task: Task) -> Result<Option<Impact>, Error> {
-        Ok(collect(1, |sink| self.run(task, sink))?.pop())
+        Ok(collect_impacts(1, |sink| self.run(task, sink))?.pop())
     }
 
     /// Returns all impacts, in order.
+    ///
+    /// # Errors
+    /// Those of [`run`](Method::run).
     fn impacts(&self, task: Task) -> Result<Vec<Impact>, Error> {
-        collect(usize::MAX, |sink| self.run(task, sink))
+        collect_impacts(usize::MAX, |sink| self.run(task, sink))
     }
 }

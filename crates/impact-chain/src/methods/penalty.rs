@@ -45,8 +45,8 @@ impl Rival for Penalty {
 
     fn begin(&self, task: Task) -> Result<Run, Error> {
         let row = Bodies::new(task)?;
-        let (scenario, ..) = task;
-        let steps = (DURATION / (self.step * scenario.natural_frequency)).sqrt().max(STEPS);
+        let omega = task.scenario.natural_frequency;
+        let steps = (DURATION / (self.step * omega)).sqrt().max(STEPS);
         let contact = PI / (steps * self.step);
         let rates = row.rates();
         let springs = Springs {
@@ -99,7 +99,7 @@ impl Stepper for Springs {
         row.shut(simd, &row.u, &mut self.shut);
         for &k in self.shut.iter().filter(|k| row.width(**k) < 0.0) {
             let speed = -row.rate(k);
-            let touches = before.iter().any(|of| of.0 == k);
+            let touches = before.iter().any(|(gap, _)| *gap == k);
             if !touches && speed > 0.0 {
                 tally.impact(k, step.to().time(), speed)?;
             }

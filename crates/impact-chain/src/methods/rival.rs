@@ -4,7 +4,7 @@ use super::method::{Cost, Method, Sealed, Task};
 use super::steps::{Step, Steps, check_end};
 use super::tally::{Stop, Tally};
 use crate::search::clock::Rate;
-use crate::vectors::level;
+use crate::vectors::vector_level;
 use crate::{Error, Sink};
 use fearless_simd::{Simd, dispatch};
 
@@ -26,13 +26,12 @@ impl<R: Rival> Method for R {
     }
 
     fn run(&self, task: Task, sink: Sink) -> Result<Cost, Error> {
-        let (scenario, _, until) = task;
-        check_end(until)?;
+        check_end(task)?;
         let run = self.begin(task)?;
-        let mut tally = Tally::new(scenario, sink);
+        let mut tally = Tally::new(task.scenario, sink);
         match run(&mut tally) {
-            Err(Some(error)) => Err(error),
-            Err(None) | Ok(()) => Ok(tally.cost),
+            Err(Stop::Failed(error)) => Err(error),
+            Err(Stop::ByReceiver) | Ok(()) => Ok(tally.cost),
         }
     }
 }
@@ -49,11 +48,14 @@ pub fn run_steps(
     mut stepper: impl Stepper,
 ) -> Result<Run, Error> {
     let steps = Steps::new(task, h, rates)?;
-    Ok(Box::new(move |tally| dispatch!(level(), simd => all(simd, &steps, &mut stepper, tally))))
+    Ok(Box::new(
+        move |tally| dispatch!(vector_level(), simd => make_steps(simd, &steps, &mut stepper, tally)),
+    ))
 }
 
+/// Makes all steps of a run.
 #[inline(always)]
-fn all<S: Simd>(
+fn make_steps<S: Simd>(
     simd: S,
     steps: &Steps,
     stepper: &mut impl Stepper,

@@ -28,8 +28,8 @@ use crate::search::clock::Instant;
 pub struct RungeKutta {
     /// Error allowed in a step, relative.
     pub tolerance: f64,
-    /// No impact leaves a gap opening more slowly.
-    pub stop: f64,
+    /// The speed with which an impact opens its gap at least.
+    pub least_rebound: f64,
 }
 
 /// The first step, in units of 1/max(ω, Ω).
@@ -39,15 +39,15 @@ impl Rival for RungeKutta {
     const NAME: &'static str = "runge-kutta";
 
     fn begin(&self, task: Task) -> Result<Run, Error> {
-        let (scenario, start, until) = task;
+        let Task { scenario, start, until } = task;
         let (mut row, now) = (Bodies::new(task)?, Instant::at(start.time));
-        row.stop = self.stop;
+        row.least_rebound = self.least_rebound;
         check_tolerance(self.tolerance)?;
         let stages = Stages::new(&row, now);
         let mut steps = Steps { stages, row, now, tolerance: self.tolerance };
         let first = FIRST / scenario.fastest();
         Ok(Box::new(move |tally| {
-            tally.stopping_at(steps.row.stop);
+            tally.limit_chatter(steps.row.least_rebound);
             steps.integrate(Instant::at(until), first, tally)
         }))
     }
@@ -89,12 +89,13 @@ impl Steps {
         Ok(())
     }
 
-    /// Returns the gap that closes first, and its time in the step; none if no gap ends negative.
+    /// Returns the gap that closes first and its time in the step, or `None` if no gap ends
+    /// negative.
     fn event(&self, h: f64, tally: &mut Tally) -> Option<(usize, f64)> {
         let (row, stages) = (&self.row, &self.stages);
         let gaps = row.topology.gaps();
         tally.cost.evaluations += gaps as u64;
-        let mut best: Option<(usize, f64)> = None;
+        let mut first: Option<(usize, f64)> = None;
         let (u, v) = stages.next.split_at(row.u.len());
         for k in 0..gaps {
             let [left, right] = row.topology.sides(k);
@@ -107,11 +108,11 @@ impl Steps {
                 let u = |m| stages.dense(m, s / h);
                 row.spacing + (u(right) - u(left))
             });
-            if best.is_none_or(|(_, earliest)| s < earliest) {
-                best = Some((k, s));
+            if first.is_none_or(|(_, earliest)| s < earliest) {
+                first = Some((k, s));
             }
         }
-        best
+        first
     }
 
     /// Goes to the time s of the step, and applies the impact of gap k there.
@@ -187,17 +188,17 @@ struct Stages {
 }
 
 impl Stages {
-    fn new(row: &Bodies, at: Instant) -> Stages {
+    fn new(row: &Bodies, instant: Instant) -> Stages {
         let y: Vec<f64> = row.u.iter().chain(&row.v).copied().collect();
         let k = std::array::from_fn(|_| vec![0.0; y.len()]);
         let mut stages = Stages { next: y.clone(), y, k, h: 0.0 };
-        stages.restart(row, at);
+        stages.restart(row, instant);
         stages
     }
 
     /// Restarts at `y`, which an impact has changed.
-    fn restart(&mut self, row: &Bodies, at: Instant) {
-        derivative(row, at, &self.y, &mut self.k[0]);
+    fn restart(&mut self, row: &Bodies, instant: Instant) {
+        differentiate(row, instant, &self.y, &mut self.k[0]);
     }
 
     /// Tries a step of length `h`. Returns the root mean square of its errors over those allowed.
@@ -207,7 +208,7 @@ impl Stages {
             for i in 0..self.y.len() {
                 self.next[i] = self.y[i] + h * self.weighted(&coefficients[..=stage], i);
             }
-            derivative(row, from.after(NODES[stage] * h), &self.next, &mut self.k[stage + 1]);
+            differentiate(row, from.after(NODES[stage] * h), &self.next, &mut self.k[stage + 1]);
         }
         let mut sum = 0.0;
         for (i, (y, next)) in self.y.iter().zip(&self.next).enumerate() {
@@ -249,9 +250,9 @@ impl Stages {
     }
 }
 
-/// (u, v)' = (v, −ω² u + forcing).
-fn derivative(row: &Bodies, at: Instant, y: &[f64], out: &mut [f64]) {
+/// Computes (u, v)' = (v, −ω² u + forcing).
+fn differentiate(row: &Bodies, instant: Instant, y: &[f64], derivative: &mut [f64]) {
     let bodies = row.u.len();
-    out[..bodies].copy_from_slice(&y[bodies..]);
-    row.accelerations(at, &y[..bodies], &mut out[bodies..]);
+    derivative[..bodies].copy_from_slice(&y[bodies..]);
+    row.accelerations(instant, &y[..bodies], &mut derivative[bodies..]);
 }

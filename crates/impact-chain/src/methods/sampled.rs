@@ -1,5 +1,6 @@
 //! Simulates by sampling gaps on a grid of times; Newton's method finds zeros between.
 
+use super::flights::Flights;
 use super::method::Task;
 use super::rival::{Rival, Run, Stepper, run_steps};
 use super::sign_change::is_open;
@@ -29,20 +30,20 @@ use impact_numerics::roots::crossing;
 pub struct Sampled {
     /// Time h between two samples.
     pub step: f64,
-    /// No impact leaves a gap opening more slowly.
-    pub stop: f64,
+    /// The speed with which an impact opens its gap at least.
+    pub least_rebound: f64,
 }
 
 impl Rival for Sampled {
     const NAME: &'static str = "sampled";
 
     fn begin(&self, task: Task) -> Result<Run, Error> {
-        let gaps = Gaps::new(task, self.stop)?;
-        let (stop, number) = (self.stop, gaps.topology.gaps() as u64);
+        let gaps = Gaps::new(task, self.least_rebound)?;
+        let (least_rebound, number) = (self.least_rebound, gaps.topology.gaps() as u64);
         let rates = gaps.parts.iter().map(|part| part.rate).collect();
         let run = run_steps(task, self.step, rates, gaps)?;
         Ok(Box::new(move |tally| {
-            tally.stopping_at(stop);
+            tally.limit_chatter(least_rebound);
             tally.cost.evaluations += number;
             run(tally)
         }))
@@ -79,7 +80,7 @@ struct Gaps {
     topology: Topology,
     spacing: f64,
     restitution: f64,
-    stop: f64,
+    least_rebound: f64,
     /// The free part first. Gaps that fill the last register never close.
     parts: Vec<Part>,
     /// The forced part of M₂ of each gap, and M₂ h²/8.
@@ -101,33 +102,16 @@ struct Gaps {
 }
 
 impl Gaps {
-    fn new(task: Task, stop: f64) -> Result<Gaps, Error> {
-        let (scenario, start, _) = task;
-        scenario.check_uniform()?;
-        let u = start.displacements(scenario)?;
-        let topology = Topology::new(scenario.forcing.len(), scenario.boundary);
-        let (w, gaps) = (scenario.natural_frequency, topology.gaps());
-        let responses = Component::responses(scenario);
+    fn new(task: Task, least_rebound: f64) -> Result<Gaps, Error> {
+        let Flights { topology, spacing, restitution, omega, free, forced, .. } =
+            Flights::new(task)?;
+        let gaps = topology.gaps();
         let length = gaps.next_multiple_of(8);
-        let begin = Instant::at(start.time);
-        let phases: Vec<_> = responses.iter().map(|of| of.phase(begin)).collect();
-        let (sin, cos) = Rate::new(w).sin_cos(begin);
-        let free = |m: usize| {
-            if topology.is_wall(m) {
-                return [0.0; 2];
-            }
-            let (mut v, mut rate) = (0.0, 0.0);
-            for (of, (sin, cos)) in responses.iter().zip(&phases) {
-                v += of.cos[m] * cos + of.sin[m] * sin;
-                rate += of.frequency * (of.sin[m] * cos - of.cos[m] * sin);
-            }
-            let (u, quadrature) = (u[m] - v, (start.velocities[m - 1] - rate) / w);
-            [u * cos - quadrature * sin, u * sin + quadrature * cos]
-        };
-        let part = |frequency: f64, of: &dyn Fn(usize) -> [f64; 2]| {
+        let begin = Instant::at(task.start.time);
+        let part = |frequency: f64, amplitudes: &dyn Fn(usize) -> [f64; 2]| {
             let [mut cos, mut sin] = [0, 1].map(|_| vec![0.0; length]);
             for k in 0..gaps {
-                let [left, right] = topology.sides(k).map(of);
+                let [left, right] = topology.sides(k).map(amplitudes);
                 (cos[k], sin[k]) = (right[0] - left[0], right[1] - left[1]);
             }
             let mut factor = 1.0;
@@ -138,17 +122,19 @@ impl Gaps {
             });
             Part { frequency, rate: Rate::new(frequency), cos, sin, factors }
         };
-        let forced = responses.iter().map(|of| part(of.frequency, &|m| [of.cos[m], of.sin[m]]));
-        let parts: Vec<Part> = std::iter::once(part(w, &free)).chain(forced).collect();
+        let mut parts = vec![part(omega, &|m| free[m])];
+        for Component { frequency, cos, sin, .. } in &forced {
+            parts.push(part(*frequency, &|m| [cos[m], sin[m]]));
+        }
         let bend = |k: usize| {
-            let of = |part: &Part| part.frequency * part.frequency * part.reach(k);
-            parts[1..].iter().map(of).sum()
+            let bend = |part: &Part| part.frequency * part.frequency * part.reach(k);
+            parts[1..].iter().map(bend).sum()
         };
         Ok(Gaps {
             topology,
-            spacing: scenario.spacing,
-            restitution: scenario.restitution,
-            stop,
+            spacing,
+            restitution,
+            least_rebound,
             forced: (0..length).map(bend).collect(),
             sag: vec![-1.0; length],
             h: 0.0,
@@ -203,7 +189,7 @@ impl Gaps {
                 let k = first + look.trailing_zeros() as usize;
                 look &= look - 1;
                 if k < self.topology.gaps() {
-                    let start = self.at(k, &self.now);
+                    let start = self.width_and_rate(k, &self.now);
                     self.locate(k, (0.0, start), step, tally);
                 }
             }
@@ -212,7 +198,7 @@ impl Gaps {
 
     /// Evaluates gap k and its rate at given phases.
     #[inline(always)]
-    fn at(&self, k: usize, phases: &[(f64, f64)]) -> [f64; 2] {
+    fn width_and_rate(&self, k: usize, phases: &[(f64, f64)]) -> [f64; 2] {
         let parts = self.parts.iter().zip(phases);
         parts.fold([self.spacing, 0.0], |[f, rate], (part, (sin, cos))| {
             let [a, b] = [part.cos[k], part.sin[k]];
@@ -223,7 +209,7 @@ impl Gaps {
     /// Adds the zero of gap k in the step from a time on, with width and rate then, if it closes.
     fn locate(&mut self, k: usize, (from, start): (f64, [f64; 2]), step: &Step, tally: &mut Tally) {
         tally.cost.evaluations += 2;
-        let mut end = self.at(k, step.phases);
+        let mut end = self.width_and_rate(k, step.phases);
         if start[0] <= 0.0 && start[1] < 0.0 {
             self.roots.push((from, k, -start[1]));
             return;
@@ -235,7 +221,7 @@ impl Gaps {
         }
         let half = 0.5 * self.h;
         let (mut low, mut high) = (from - half, half);
-        let gap = Polynomial::of(self, k);
+        let gap = Polynomial::about_middle(self, k);
         let value = |x: f64| gap.value(x, self.terms);
         if is_open {
             // Where the tangents at both ends meet above zero, so does a gap that is convex.
@@ -282,10 +268,10 @@ impl Gaps {
 
     /// Lets gap k be hit, `s` after the beginning of the step.
     fn hit(&mut self, (s, k, speed): (f64, usize, f64), step: &Step, tally: &mut Tally) {
-        let rebound = (self.restitution * speed).max(self.stop);
-        let at = step.from().after(s);
+        let rebound = (self.restitution * speed).max(self.least_rebound);
+        let instant = step.from().after(s);
         for (now, part) in self.now.iter_mut().zip(&self.parts) {
-            *now = part.rate.sin_cos(at);
+            *now = part.rate.sin_cos(instant);
         }
         let (sin, cos) = self.now[0];
         let jumps = jumps(speed + rebound, 0.0, self.topology.inverse_masses(k));
@@ -300,9 +286,9 @@ impl Gaps {
         self.roots.retain(|root| root.1 != k && Some(root.1) != before && Some(root.1) != after);
         for j in std::iter::once(k).chain(self.topology.near(k)) {
             self.sag[j] = self.bend(j) * self.h * self.h / 8.0;
-            let low = u64::from(self.at(j, step.phases)[0] < self.sag[j]) << (j % WORD);
+            let low = u64::from(self.width_and_rate(j, step.phases)[0] < self.sag[j]) << (j % WORD);
             self.low[j / WORD] = self.low[j / WORD] & !(1 << (j % WORD)) | low;
-            let start = if j == k { [0.0, rebound] } else { self.at(j, &self.now) };
+            let start = if j == k { [0.0, rebound] } else { self.width_and_rate(j, &self.now) };
             self.locate(j, (s, start), step, tally);
         }
     }
@@ -321,7 +307,7 @@ struct Polynomial {
 
 impl Polynomial {
     #[inline(always)]
-    fn of(gaps: &Gaps, k: usize) -> Polynomial {
+    fn about_middle(gaps: &Gaps, k: usize) -> Polynomial {
         let mut terms = [0.0; TERMS];
         terms[0] = gaps.spacing;
         for (part, (sin, cos)) in gaps.parts.iter().zip(&gaps.middle) {
@@ -386,7 +372,9 @@ mod tests {
             Scenario::given(&Chain { masses: 1, ..Chain::default() }, vec![[0.18, 0.24]]);
         let initial = Initial::Free(vec![[0.3, 0.4]]);
         let scenario = Scenario { forcing_frequency: 2.0, initial, ..scenario.unwrap() };
-        let mut gaps = Gaps::new((&scenario, &State::of(&scenario), 1.0), 0.0).unwrap();
+        let task =
+            Task { scenario: &scenario, start: &State::from_scenario(&scenario), until: 1.0 };
+        let mut gaps = Gaps::new(task, 0.0).unwrap();
         for (h, terms) in [(0.5, 16), (0.1, 11), (1e-3, ROUGH)] {
             gaps.lengthen(h);
             assert_eq!(gaps.terms, terms, "{h}");

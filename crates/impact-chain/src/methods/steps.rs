@@ -2,7 +2,7 @@
 //! tolerances and end times.
 
 use super::method::Task;
-use crate::error::{Error, within};
+use crate::error::{Error, check_range};
 use crate::search::clock::{Instant, LATEST, Rate};
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -48,16 +48,18 @@ pub struct Steps {
 
 /// The phases at the ends of whole steps from a number on.
 struct Piece {
-    of: (Vec<Rate>, Instant, u64, u64),
+    /// The rates, the start, the bits of the length of a step, and the number of the first.
+    key: (Vec<Rate>, Instant, u64, u64),
     phases: Vec<(f64, f64)>,
 }
 
 impl Steps {
-    pub fn new((scenario, start, until): Task, h: f64, rates: Vec<Rate>) -> Result<Steps, Error> {
-        within("step", h, SHORTEST, 1.0 / scenario.fastest())?;
+    pub fn new(task: Task, h: f64, rates: Vec<Rate>) -> Result<Steps, Error> {
+        let Task { scenario, start, until } = task;
+        check_range("step", h, SHORTEST, 1.0 / scenario.fastest())?;
         let count = ((until - start.time).max(0.0) / h).ceil();
         if count > MAX_STEPS {
-            return Err(too_many(count, "step"));
+            return Err(too_many_steps(count, "step"));
         }
         let (begin, end) = (Instant::at(start.time), Instant::at(until));
         Ok(Steps { rates, begin, end, h, count: count as u64 })
@@ -65,15 +67,15 @@ impl Steps {
 
     /// Hands on each step in turn.
     #[inline(always)]
-    pub fn each<E>(&self, mut one: impl FnMut(&Step) -> Result<(), E>) -> Result<(), E> {
+    pub fn each<E>(&self, mut visit: impl FnMut(&Step) -> Result<(), E>) -> Result<(), E> {
         let Steps { ref rates, begin, end, h, count } = *self;
         let whole = count.saturating_sub(1);
         for first in (0..whole).step_by(KEPT) {
             let number = (whole - first).min(KEPT as u64) as usize;
-            let piece = self.shared(first, number);
+            let piece = self.tabulated(first, number);
             let phases = piece.phases.chunks_exact(rates.len()).take(number);
             for (number, phases) in (first..).zip(phases) {
-                one(&Step { begin, end: None, whole: h, number, h, phases })?;
+                visit(&Step { begin, end: None, whole: h, number, h, phases })?;
             }
         }
         if count > 0 {
@@ -81,40 +83,41 @@ impl Steps {
             let from = begin.after(whole as f64 * h);
             let last = end.since(from).max(0.0);
             let (number, phases) = (whole, &phases[..]);
-            one(&Step { begin, end: Some(end), whole: h, number, h: last, phases })?;
+            visit(&Step { begin, end: Some(end), whole: h, number, h: last, phases })?;
         }
         Ok(())
     }
 
     /// Tabulates the phases of some steps. The last table of a thread serves all chains with the
     /// same frequencies, start and step.
-    fn shared(&self, first: u64, number: usize) -> Rc<Piece> {
+    fn tabulated(&self, first: u64, number: usize) -> Rc<Piece> {
         thread_local!(static LAST: RefCell<Option<Rc<Piece>>> = const { RefCell::new(None) });
-        let of = (self.rates.clone(), self.begin, self.h.to_bits(), first);
+        let key = (self.rates.clone(), self.begin, self.h.to_bits(), first);
         LAST.with_borrow_mut(|last| {
             let length = number * self.rates.len();
-            let kept = last.take().filter(|it| it.of == of && it.phases.len() >= length);
-            let piece = kept.unwrap_or_else(|| {
-                let at = |i: u64| self.begin.after((first + i + 1) as f64 * self.h);
-                let phases = |i| self.rates.iter().map(move |rate| rate.sin_cos(at(i)));
-                Rc::new(Piece { of, phases: (0..number as u64).flat_map(phases).collect() })
+            let same = |piece: &Rc<Piece>| piece.key == key && piece.phases.len() >= length;
+            let piece = last.take().filter(same).unwrap_or_else(|| {
+                let end = |i: u64| self.begin.after((first + i + 1) as f64 * self.h);
+                let phases = |i| self.rates.iter().map(move |rate| rate.sin_cos(end(i)));
+                let phases = (0..number as u64).flat_map(phases).collect();
+                Rc::new(Piece { key: key.clone(), phases })
             });
             last.insert(piece).clone()
         })
     }
 }
 
-pub fn too_many(steps: f64, field: &str) -> Error {
+pub fn too_many_steps(steps: f64, field: &str) -> Error {
     let remedy = format!("give a larger {field} or an earlier end, for at most {MAX_STEPS:e}");
     Error::input(field, format!("{steps:.1e} steps are needed"), remedy)
 }
 
-pub fn check_end(until: f64) -> Result<(), Error> {
-    within("until", until, -LATEST, LATEST)
+pub fn check_end(task: Task) -> Result<(), Error> {
+    check_range("until", task.until, task.start.time, LATEST)
 }
 
 pub fn check_tolerance(tolerance: f64) -> Result<(), Error> {
-    within("tolerance", tolerance, 1e-15, 0.1)
+    check_range("tolerance", tolerance, 1e-15, 0.1)
 }
 
 #[cfg(test)]
@@ -128,7 +131,8 @@ mod tests {
         let scenario = Scenario::given(&Chain { masses: 1, ..Chain::default() }, vec![[0.0; 2]]);
         let (scenario, rates) = (scenario.unwrap(), [1.0, 1.4].map(Rate::new).to_vec());
         for number in [8, 15, 24] {
-            let task = (&scenario, &State::of(&scenario), f64::from(number) * 0.125);
+            let (start, until) = (State::from_scenario(&scenario), f64::from(number) * 0.125);
+            let task = Task { scenario: &scenario, start: &start, until };
             let mut ends = Vec::new();
             let steps = Steps::new(task, 0.125, rates.clone()).unwrap();
             let each = steps.each(|step| -> Result<(), ()> {

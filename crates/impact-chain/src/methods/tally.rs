@@ -1,60 +1,60 @@
 //! Counts the work of a rival, and bounds it.
 
 use super::method::Cost;
-use super::steps::{MAX_STEPS, too_many};
-use crate::events::EVENTS_PER_GAP;
+use super::steps::{MAX_STEPS, too_many_steps};
+use crate::budget::Budget;
 use crate::topology::Topology;
 use crate::{Error, Impact, Scenario, Sink};
 
-/// Why a run ends early: an error, or none if the receiver of the impacts stopped it.
-pub type Stop = Option<Error>;
+/// Why a run ends early.
+pub enum Stop {
+    Failed(Error),
+    /// The receiver of the impacts asked for it.
+    ByReceiver,
+}
+
+impl From<Error> for Stop {
+    fn from(error: Error) -> Stop {
+        Stop::Failed(error)
+    }
+}
 
 /// The counted work of a run; impacts pass through it.
 pub struct Tally<'a> {
     pub cost: Cost,
     sink: Sink<'a>,
     topology: Topology,
+    /// One unit of time, 1/ω.
     unit: f64,
-    bound: u64,
-    /// End of the current unit of time, and the events left in it.
-    end: f64,
-    left: u64,
+    budget: Budget<f64>,
 }
 
 impl<'a> Tally<'a> {
     pub fn new(scenario: &Scenario, sink: Sink<'a>) -> Self {
         let topology = Topology::new(scenario.forcing.len(), scenario.boundary);
-        let bound = EVENTS_PER_GAP * topology.gaps() as u64;
         Tally {
             cost: Cost::default(),
             sink,
             topology,
             unit: 1.0 / scenario.natural_frequency,
-            bound,
-            end: f64::NEG_INFINITY,
-            left: bound,
+            budget: Budget::new(topology.gaps(), f64::NEG_INFINITY),
         }
     }
 
-    /// Lowers the bound of a method without a least rebound speed, whose chatters have no end.
-    pub fn stopping_at(&mut self, speed: f64) {
-        if speed == 0.0 {
-            self.bound /= 10;
+    /// Lowers the bound of a method whose least rebound speed is zero: its chatters have no end.
+    pub fn limit_chatter(&mut self, least_rebound: f64) {
+        if least_rebound == 0.0 {
+            self.budget.bound /= 10;
         }
     }
 
     /// Takes an event of gap k from the budget of the current unit of time.
     pub fn spend(&mut self, k: usize, time: f64) -> Result<(), Stop> {
-        if time >= self.end {
-            self.end = time + self.unit;
-            self.left = self.bound;
+        if self.budget.spend(time, || time + self.unit) {
+            return Ok(());
         }
-        if self.left == 0 {
-            let gap = self.topology.label(k);
-            return Err(Error::Work { gap, time, bound: self.bound }.into());
-        }
-        self.left -= 1;
-        Ok(())
+        let (gap, bound) = (self.topology.label(k), self.budget.bound);
+        Err(Error::Work { gap, time, bound }.into())
     }
 
     pub fn impact(&mut self, k: usize, time: f64, closing_speed: f64) -> Result<(), Stop> {
@@ -63,11 +63,12 @@ impl<'a> Tally<'a> {
         if (self.sink)(Impact { time, gap: self.topology.label(k), closing_speed }) {
             Ok(())
         } else {
-            Err(None)
+            Err(Stop::ByReceiver)
         }
     }
 
-    /// Counts an impact if it has a speed. A gap at rest at zero has none, but is an event.
+    /// Counts an impact if it has a speed; without one it is an event only, of a gap that rests at
+    /// zero.
     pub fn event(&mut self, k: usize, time: f64, speed: f64) -> Result<(), Stop> {
         if speed > 0.0 { self.impact(k, time, speed) } else { self.spend(k, time) }
     }
@@ -76,7 +77,7 @@ impl<'a> Tally<'a> {
     pub fn step(&mut self) -> Result<(), Stop> {
         self.cost.steps += 1;
         if self.cost.steps as f64 > MAX_STEPS {
-            return Err(too_many(self.cost.steps as f64, "tolerance").into());
+            return Err(too_many_steps(self.cost.steps as f64, "tolerance").into());
         }
         Ok(())
     }

@@ -26,7 +26,7 @@ fn refused(field: &str, problem: impl Into<String>) -> Error {
 impl Rival for Truth {
     const NAME: &'static str = "truth";
 
-    fn begin(&self, (scenario, start, until): Task) -> Result<Run, Error> {
+    fn begin(&self, Task { scenario, start, until }: Task) -> Result<Run, Error> {
         if scenario.boundary == Boundary::Ring {
             return Err(refused("boundary", "truth supports walls only"));
         }
@@ -35,7 +35,7 @@ impl Rival for Truth {
         }
         scenario.check_uniform()?;
         start.displacements(scenario)?;
-        let mut motion = TrueMotion::of(scenario, start);
+        let mut motion = TrueMotion::from_state(scenario, start);
         Ok(Box::new(move |tally| {
             while let Some(hit) = motion.next(until)? {
                 motion.advance(&hit);
@@ -92,7 +92,7 @@ type TruePhases = [[DoubleDouble; 2]; 2];
 
 impl TrueMotion {
     /// Starts exactly at a state: one component of forcing, no contact, walls at both ends.
-    pub fn of(scenario: &Scenario, state: &State) -> TrueMotion {
+    pub fn from_state(scenario: &Scenario, state: &State) -> TrueMotion {
         let rates = [scenario.natural_frequency, scenario.forcing_frequency].map(dd);
         let factor = rates[0] * rates[0] - rates[1] * rates[1];
         let n = scenario.forcing.len();
@@ -151,6 +151,7 @@ impl TrueMotion {
     }
 
     /// Returns d + R₁ + R₂ of a gap: the scale of its rounding.
+    #[must_use]
     pub fn scale(&self, gap: usize) -> f64 {
         self.amplitudes(gap).iter().fold(self.scenario.spacing, |sum, r| sum + r)
     }

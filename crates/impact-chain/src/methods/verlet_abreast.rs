@@ -6,7 +6,7 @@ use crate::forcing::gap_amplitudes;
 use crate::impact::jumps;
 use crate::search::clock::Rate;
 use crate::topology::Topology;
-use crate::vectors::level;
+use crate::vectors::vector_level;
 use crate::{Error, Impact, Scenario, Sink, State};
 use fearless_simd::{dispatch, f32x16, prelude::*};
 
@@ -16,8 +16,10 @@ const LANES: usize = 16;
 /// After so many impacts of adjacent gaps, each by the last, a step is left as it is.
 const DEEPEST: u32 = 8;
 
-/// A gap may dip in a step if it is narrower than this times (ωh)² d at its end.
-const DIP: f64 = 0.5;
+/// A gap may dip in a step if it is narrower than this times (ωh)² d at its end: M₂ h²/8 where
+/// |f''| ≤ M₂ = 1.2 ω² d in it. With 0.5 means of chains are the same within their errors, and cost
+/// up to 1.2 times as much.
+const DIP: f64 = 0.15;
 
 /// Verlet's steps for the gaps of many chains, a chain in each lane of a register, in single
 /// precision; impacts are placed within the step.
@@ -35,8 +37,14 @@ pub struct VerletAbreast {
     pub step: f64,
 }
 
-/// Whether each gap, or one, is to be hit after a time.
-pub type Window = (f64, bool);
+/// The steps in which gaps with an impact are counted.
+#[derive(Clone, Copy, Debug)]
+pub struct Window {
+    /// The time at or after which these steps begin.
+    pub after: f64,
+    /// Whether a chain ends when one gap is hit there, not all.
+    pub ends_with_one: bool,
+}
 
 /// Receives the number of a chain and an impact; returns false to end the chain.
 pub type Receiver<'a> = dyn FnMut(usize, Impact) -> bool + 'a;
@@ -45,22 +53,22 @@ impl VerletAbreast {
     /// Runs chains that differ in forces and starts only, and hands each impact to `sink`,
     /// sorted within a step.
     ///
-    /// With a window, no impact is handed on; instead, the gaps of each chain with an impact in the
-    /// steps after its time are counted, and a chain ends when all are hit, or one.
+    /// With a window, no impact is handed on; instead, the gaps of each chain with an impact in it
+    /// are counted, and a chain ends when all are hit, or one.
     ///
     /// # Errors
     /// As [`Method::run`], and [`Error::Input`] for different chains.
     pub fn run_all(
         &self,
-        all: &[Scenario],
+        scenarios: &[Scenario],
         until: f64,
         window: Option<Window>,
         sink: &mut Receiver,
     ) -> Result<(Cost, Vec<u32>), Error> {
         let (h, mut ready, mut cost) = (self.step, Vec::new(), Cost::default());
-        let mut counts = vec![0; all.len()];
-        let Some(like) = all.first() else { return Ok((cost, counts)) };
-        for (chain, scenario) in all.iter().enumerate() {
+        let mut counts = vec![0; scenarios.len()];
+        let Some(like) = scenarios.first() else { return Ok((cost, counts)) };
+        for (chain, scenario) in scenarios.iter().enumerate() {
             scenario.validate()?;
             scenario.check_uniform()?;
             let Scenario { forcing, initial, .. } = like.clone();
@@ -79,10 +87,11 @@ impl VerletAbreast {
         let start = State { time: 0.0, positions: Vec::new(), velocities: Vec::new() };
         // Half a step more, which is not made: all that are made are whole.
         let end = ((until / h).ceil() + 0.5) * h;
-        let steps = Steps::new((like, &start, end), h, vec![Rate::new(like.forcing_frequency)])?;
+        let task = Task { scenario: like, start: &start, until: end };
+        let steps = Steps::new(task, h, vec![Rate::new(like.forcing_frequency)])?;
         for group in ready.chunks(LANES) {
             let mut lanes = Lanes { until, window, ..Lanes::new(like, h, group) };
-            dispatch!(level(), simd => lanes.run(simd, &steps, sink));
+            dispatch!(vector_level(), simd => lanes.run(simd, &steps, sink));
             cost.impacts += lanes.impacts;
             cost.steps += lanes.steps;
             for (lane, (chain, _)) in group.iter().enumerate() {
@@ -102,12 +111,13 @@ impl Method for VerletAbreast {
         "verlet-abreast"
     }
 
-    fn run(&self, (scenario, start, until): Task, sink: Sink) -> Result<Cost, Error> {
-        check_end(until)?;
+    fn run(&self, task: Task, sink: Sink) -> Result<Cost, Error> {
+        check_end(task)?;
+        let Task { scenario, start, until } = task;
         let begin = start.time;
         let mut later = |_, impact: Impact| sink(Impact { time: begin + impact.time, ..impact });
-        let all = [start.as_scenario(scenario)?];
-        Ok(self.run_all(&all, until - begin, None, &mut later)?.0)
+        let scenarios = [start.as_scenario(scenario)?];
+        Ok(self.run_all(&scenarios, until - begin, None, &mut later)?.0)
     }
 }
 
@@ -149,7 +159,7 @@ struct Lanes {
     looks: Vec<(usize, u16)>,
     stack: Vec<(usize, u32)>,
     /// Impacts of a step, with their lanes.
-    found: Vec<(usize, Impact)>,
+    step_impacts: Vec<(usize, Impact)>,
     impacts: u64,
     steps: u64,
 }
@@ -216,7 +226,7 @@ impl Lanes {
                 if self.live == 0 || step.h < 0.75 * self.h {
                     return Err(());
                 }
-                self.counts = self.window.is_some_and(|(after, _)| time >= after);
+                self.counts = self.window.is_some_and(|window| time >= window.after);
                 self.steps += u64::from(self.live.count_ones());
                 let number = self.leap(simd, from);
                 let to = [step.phases[0].1 as f32, step.phases[0].0 as f32];
@@ -231,10 +241,10 @@ impl Lanes {
                 }
                 match self.window {
                     None => self.report(sink),
-                    Some((_, one)) if self.counts && i % 4 == 0 => {
+                    Some(window) if self.counts && i % 4 == 0 => {
                         let hit = self.gaps[..self.near.len()].iter().map(|gap| gap.hit);
                         let (any, all) = hit.fold((0, !0), |of, hit| (of.0 | hit, of.1 & hit));
-                        self.end(self.live & if one { any } else { all });
+                        self.end(self.live & if window.ends_with_one { any } else { all });
                     }
                     Some(_) => (),
                 }
@@ -299,7 +309,7 @@ impl Lanes {
                 let time = time - f64::from(s.min(1.0)) * self.h;
                 let closing_speed = f64::from(speed) * self.spacing / self.h;
                 let gap = self.first + k;
-                self.found.push((lane, Impact { time, gap, closing_speed }));
+                self.step_impacts.push((lane, Impact { time, gap, closing_speed }));
             }
             for (near, part) in self.near[k] {
                 let gap = &mut self.gaps[near];
@@ -314,8 +324,8 @@ impl Lanes {
 
     /// Hands on the impacts of a step.
     fn report(&mut self, sink: &mut Receiver) {
-        self.found.sort_by(|a, b| a.1.time.total_cmp(&b.1.time));
-        for (lane, impact) in std::mem::take(&mut self.found) {
+        self.step_impacts.sort_by(|a, b| a.1.time.total_cmp(&b.1.time));
+        for (lane, impact) in std::mem::take(&mut self.step_impacts) {
             if self.live >> lane & 1 == 0 || impact.time > self.until {
                 self.impacts -= 1;
             } else if !sink(self.chains[lane], impact) {

@@ -140,12 +140,12 @@ impl Rate {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use impact_numerics::random::NormalPairs;
+    use impact_numerics::random::{NormalPairs, Seed};
 
     /// The fast conversions agree with those of the language.
     #[test]
     fn conversions_are_rounded_once() {
-        let mut normals = NormalPairs::new("conversions", 1, 0);
+        let mut normals = NormalPairs::new("conversions", Seed(1), 0);
         for i in 0..20_000 {
             let [x, y] = normals.pair();
             let s = x * 2.0f64.powi(i % 140 - 95);

@@ -128,13 +128,13 @@ impl Earliest {
                 agreeing.extend([2 * node + 1, 2 * node]);
                 continue;
             };
-            let at = self.keys[index];
-            if at > key || at == Instant::NEVER {
+            let candidate = self.keys[index];
+            if candidate > key || candidate == Instant::NEVER {
                 continue;
             }
             let speed = speed(index);
-            if at < key || speed > fastest {
-                (first, key, fastest) = (index, at, speed);
+            if candidate < key || speed > fastest {
+                (first, key, fastest) = (index, candidate, speed);
             }
         }
         (first, key)
@@ -154,7 +154,7 @@ impl Earliest {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use impact_numerics::random::generator;
+    use impact_numerics::random::{Seed, generator};
     use rand::Rng;
 
     /// Scans all keys: exact ties, ties of words alone, times before and after the epoch.
@@ -175,7 +175,7 @@ mod tests {
         for len in [1, 2, 7, 8, 9, 101, 700] {
             let mut earliest = Earliest::new(len);
             let mut keys = vec![Instant::NEVER; len];
-            let mut random = generator("earliest", 1, len as u64);
+            let mut random = generator("earliest", Seed(1), len as u64);
             for round in 0..4000 {
                 let index = random.next_u64() as usize % len;
                 // Keys go on with time, some are far off, and some before all others.

@@ -139,7 +139,7 @@ impl<const M: usize> Search<M> {
 mod tests {
     use super::*;
     use crate::search::truth::{derivative, frame};
-    use impact_numerics::random::NormalPairs;
+    use impact_numerics::random::{NormalPairs, Seed};
 
     #[test]
     fn a_gap_at_zero_or_below_is_hit_at_once_unless_it_opens() {
@@ -164,7 +164,7 @@ mod tests {
         let frequencies = &search.frequencies;
         let mut tried = [0; 3];
         for i in 0..4000 {
-            let mut normals = NormalPairs::new("dips", 1, i);
+            let mut normals = NormalPairs::new("dips", Seed(1), i);
             let ([q, v], [x, y]) = (normals.pair(), normals.pair());
             let s = 0.05 + 0.9 * frequencies.reach * (0.5 + y.atan2(x) / std::f64::consts::TAU);
             // At s the slope is zero, and the curvature 1e-4 to 1.
@@ -209,7 +209,7 @@ mod tests {
     #[test]
     fn a_root_is_the_first_beyond_the_doubt_of_the_screen() {
         let search = Search::new(Frequencies::new(1.5, [1.0]));
-        let frame = frame(1.0, [[0.0; 2], [1.0, 0.0]], &search.frequencies);
+        let frame = frame(1.0, [[0.0; 2], [2.0, 0.0]], &search.frequencies);
         let bend = derivative(&frame, &search.frequencies, 2, 0.0).abs();
         let square = 4.0 * bend * search.pieces[0].largest_difference(&frame);
         assert!(search.is_first(&frame, (1.001 * square).sqrt()));

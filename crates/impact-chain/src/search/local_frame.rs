@@ -207,14 +207,14 @@ impl<const M: usize> Point<M> {
 mod tests {
     use super::*;
     use crate::search::truth::{derivative, frame};
-    use impact_numerics::random::NormalPairs;
+    use impact_numerics::random::{NormalPairs, Seed};
 
     /// Values are exact to half the margin, which counts the rounding of two of them.
     #[test]
     fn values_are_within_their_margin() {
         let frequencies = Frequencies::new(1.0, [1.5]);
         for i in 0..3000 {
-            let mut normals = NormalPairs::new("margin", 1, i);
+            let mut normals = NormalPairs::new("margin", Seed(1), i);
             let frame = frame(1.0, [normals.pair(), normals.pair()], &frequencies);
             let s = frequencies.reach * (i as f64 / 3000.0).powi(1 + i as i32 % 9);
             let p = frame.at(s, &frequencies);

@@ -45,7 +45,8 @@ impl<const M: usize> Nodes<M> {
         }
     }
 
-    /// Returns the root near `guess`, 0 ≤ `guess` ≤ reach, and −f' there; none if there is none.
+    /// Returns the root near `guess`, 0 ≤ `guess` ≤ reach, and −f' there, or `None` if no root is
+    /// near.
     #[inline(always)]
     pub fn root(&self, frame: &Frame<M>, guess: f64, work: &mut Counters) -> Option<(f64, f64)> {
         let mut s = guess;
@@ -119,14 +120,14 @@ impl Taylor {
 mod tests {
     use super::*;
     use crate::search::truth::{derivative, frame};
-    use impact_numerics::random::NormalPairs;
+    use impact_numerics::random::{NormalPairs, Seed};
 
     #[test]
     fn roots_are_right_to_rounding_from_far_guesses() {
         let frequencies = Frequencies::new(1.0, [1.5]);
         let (nodes, mut roots) = (Nodes::new(&frequencies), 0);
         for i in 0..3000 {
-            let mut normals = NormalPairs::new("nodes", 1, i);
+            let mut normals = NormalPairs::new("nodes", Seed(1), i);
             let frame = frame(0.5, [normals.pair(), normals.pair()], &frequencies);
             let guess = frequencies.reach * (i as f64 / 3000.0);
             if let Some((s, speed)) = nodes.root(&frame, guess, &mut Counters::default()) {

@@ -27,7 +27,7 @@ pub struct Counters {
     /// Dips of a gap of which rounding cannot tell whether they reach zero, taken for misses. One
     /// that an impact next to the gap prevents is counted too.
     pub undecided: u64,
-    /// Where the last of these dips lies in the frame of its gap.
+    /// The time of the last of these dips, in the frame of its gap.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) dip: f64,
     /// Impacts at exactly the same instant as one of a neighbouring gap.

@@ -75,11 +75,7 @@ pub struct Coefficients {
 
 /// Returns C(i, k) k! (8 − k)!/8! wᵏ: the k-th Taylor coefficient in the i-th of Bernstein.
 fn weight(i: usize, k: usize, w: f64) -> f64 {
-    let mut out = 1.0;
-    for m in 0..k {
-        out *= (i - m) as f64 * w / (N - m) as f64;
-    }
-    out
+    (0..k).fold(1.0, |product, m| product * ((i - m) as f64 * w / (N - m) as f64))
 }
 
 /// Returns b₁ … b₈ of the Hermite polynomial to value and three derivatives at both ends.
@@ -134,10 +130,11 @@ impl<const M: usize> Piece<M> {
         Coefficients { row, slack: SLACK * frame.size }
     }
 
-    /// Guesses the root, from the frame's instant, if f falls from `first` to < 0; or none.
+    /// Guesses the root, from the frame's instant, if f falls from `first` to < 0, or returns
+    /// `None` if it may not.
     #[inline(always)]
     pub fn only_root(&self, frame: &Frame<M>, first: f64, c: &Coefficients) -> Option<f64> {
-        let [b1, b2, b3, b4, b5, b6, b7, b8] = c.all();
+        let [b1, b2, b3, b4, b5, b6, b7, b8] = c.to_array();
         let before = [[first, b1], [b2, b3], [b4, b5], [b6, b7]].map(Pair::from);
         let slack = splat(c.slack + self.difference_of_slope * frame.bound);
         let falls: [Pair; N / 2] = std::array::from_fn(|i| less(c.row[i], before[i] - slack));
@@ -192,7 +189,7 @@ impl Coefficients {
     }
 
     #[inline(always)]
-    fn all(&self) -> [f64; N] {
+    fn to_array(self) -> [f64; N] {
         let [[a, b], [c, d], [e, f], [g, h]] = self.row.map(Pair::to_array);
         [a, b, c, d, e, f, g, h]
     }
@@ -202,7 +199,7 @@ impl Coefficients {
 mod tests {
     use super::*;
     use crate::search::truth::{derivative, frame};
-    use impact_numerics::random::NormalPairs;
+    use impact_numerics::random::{NormalPairs, Seed};
 
     /// A sinusoid of the highest frequency about the middle of a piece has |f⁽⁸⁾| = M₈ there: q is
     /// never above it, and touches it within a tenth of the remainder where f⁽⁸⁾ < 0.
@@ -217,7 +214,7 @@ mod tests {
             let frame = frame(0.0, [[0.0; 2], [sign * cos, sign * sin]], &frequencies);
             let at = |u: f64| derivative(&frame, &frequencies, 0, piece.start + u * width);
             let above = |u: f64| {
-                let mut b = [&[at(0.0)], &piece.coefficients(&frame).all()[..]].concat();
+                let mut b = [&[at(0.0)], &piece.coefficients(&frame).to_array()[..]].concat();
                 while b.len() > 1 {
                     b = b.windows(2).map(|two| two[0] + u * (two[1] - two[0])).collect();
                 }
@@ -235,12 +232,12 @@ mod tests {
     #[test]
     fn roundings_are_below_half_the_slack() {
         let frequencies = Frequencies::new(1.0, [1.5]);
-        let mut normals = NormalPairs::new("slack", 1, 0);
+        let mut normals = NormalPairs::new("slack", Seed(1), 0);
         for _ in 0..300 {
             let frame = frame(1.0, [normals.pair(), normals.pair()], &frequencies);
             let c = Piece::new(0.5, 0.7, &frequencies).coefficients(&frame);
             let exact = |order, s| derivative(&frame, &frequencies, order, s);
-            let off = c.all()[0] - (exact(0, 0.5) + 0.7 * exact(1, 0.5) / 8.0);
+            let off = c.to_array()[0] - (exact(0, 0.5) + 0.7 * exact(1, 0.5) / 8.0);
             for off in [off, c.last() - exact(0, 0.5 + 0.7)] {
                 assert!(2.0 * off.abs() <= c.slack, "{off:e}, {:e}", c.slack);
             }

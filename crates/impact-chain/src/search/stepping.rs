@@ -101,7 +101,8 @@ fn stays_open<const M: usize>(a: &Point<M>, b: &Point<M>, h: f64, bound6: f64, s
     coefficients.iter().all(|&c| c > slack)
 }
 
-/// Returns order and value of the first of f'', f''', f'''' above `times` its rounding, or none.
+/// Returns order and value of the first of f'', f''', f'''' above `times` its rounding, or
+/// `None` if all are below.
 fn leading<const M: usize>(
     p: &Point<M>,
     times: f64,
@@ -261,7 +262,8 @@ pub fn first_root_by_steps<const M: usize>(
 /// Widths above this fraction of the size of a frame are no part of a dip that rounding hides.
 pub const SHALLOW: f64 = 1e-6;
 
-/// Returns the dip of a frame from the motions that rounding hides, and a time after it; or none.
+/// Returns the dip of a frame from the motions that rounding hides and a time after it, or `None`
+/// if there is no such dip.
 #[cold]
 pub fn hidden_dip<const M: usize>(
     frame: &Frame<M>,
@@ -322,7 +324,8 @@ fn beyond_root<const M: usize>(p: &Point<M>, root: f64, discriminant: f64, left:
     if better > 0.0 { (1.0625 * better).min(left) } else { guess }
 }
 
-/// Guesses a point before the first root in (`a`, a + h) by the quintic of both ends; or none.
+/// Guesses a point before the first root in (`a`, a + h) by the quintic of both ends, or returns
+/// `None` if the quintic has no root there.
 #[inline]
 fn before_root<const M: usize>(a: &Point<M>, b: &Point<M>, h: f64, bound6: f64) -> Option<f64> {
     let (ga, gb) = (h * a.d1, h * b.d1);

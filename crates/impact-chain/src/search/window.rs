@@ -19,8 +19,8 @@ const WIDENED: f64 = 1e-7;
 
 const HOPS: u32 = 64;
 
-/// Returns a time s ≥ 0 before which `mean` + Σ R cos(νs + θ) > 0 is certain; none if it is at
-/// all times.
+/// Returns a time s ≥ 0 before which `mean` + Σ R cos(νs + θ) > 0 is certain, or `None` if it is
+/// certain at all times.
 ///
 /// The part with amplitude R is low enough only while R cos(νs + θ) ≤ −(mean − Σ of the
 /// other amplitudes): in one window a period. Before s no instant lies in the windows of all parts.
@@ -87,7 +87,7 @@ impl Part {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use impact_numerics::random::NormalPairs;
+    use impact_numerics::random::{NormalPairs, Seed};
     use std::f64::consts::{PI, SQRT_2};
 
     /// At s one part is lowest and the other enters its window, so the sum is zero at last.
@@ -95,7 +95,7 @@ mod tests {
     fn a_window_opens_just_before_the_sum_can_be_zero() {
         let frequencies = Frequencies::new(1.0, [SQRT_2]);
         for i in 0..4000 {
-            let [x, y] = NormalPairs::new("window", 1, i).pair();
+            let [x, y] = NormalPairs::new("window", Seed(1), i).pair();
             let (s, cosine) = ([0.1, 300.0][i as usize / 2 % 2] * y.abs(), x / (1.0 + x.abs()));
             let (edge, lowest, entry) = (1.0 + x * x, 1.0 + y * y, PI - cosine.acos());
             let [angles, amplitudes] = match i % 2 {

@@ -1,9 +1,9 @@
 //! Compares chains that are simulated side by side with the engine.
 
 use crate::{drawn, first, given};
-use impact_chain::NormalPairs;
 use impact_chain::abreast::{Abreast, Realisation};
 use impact_chain::{Boundary, Chain, Counts, Engine, Overtone, Protocol, Scenario, Start, Watch};
+use impact_chain::{NormalPairs, Seed};
 
 const END: f64 = 30.0;
 
@@ -48,9 +48,9 @@ fn run(
     chain: &Chain,
     windows: &[Protocol],
     until: f64,
-    all: &[Scenario],
+    scenarios: &[Scenario],
 ) -> Vec<Option<Realisation>> {
-    Abreast::new(chain, windows, until).unwrap().run(all, &|| false)
+    Abreast::new(chain, windows, until).unwrap().run(scenarios, &|| false)
 }
 
 fn by_engine(chain: &Chain, windows: &[Protocol], until: f64, scenario: &Scenario) -> Counts {
@@ -65,18 +65,18 @@ fn impacts_are_those_of_the_engine() {
         let windows = windows(0.5 / chain.natural_frequency);
         for factor in [0.6, 1.0, 1.6, 5.0] {
             // Strong forces press masses together, and chaos is fast.
-            let (all, is_strong) = (scenarios(&chain, factor), factor > 2.0);
+            let (starts, is_strong) = (scenarios(&chain, factor), factor > 2.0);
             let until = if is_strong { 7.0 } else { END };
-            for (place, (found, scenario)) in
-                run(&chain, &windows, until, &all).into_iter().zip(&all).enumerate()
+            for (place, (realisation, scenario)) in
+                run(&chain, &windows, until, &starts).into_iter().zip(&starts).enumerate()
             {
                 let expected = by_engine(&chain, &windows, until, scenario);
-                let Some(mut found) = found else {
+                let Some(mut realisation) = realisation else {
                     handed_over += if is_strong { 0 } else { 1 - expected.rejected };
                     continue;
                 };
                 impacts += expected.total.impacts;
-                let counts = found.counts();
+                let counts = realisation.counts();
                 assert_eq!(counts.distinct, expected.distinct, "{chain:?} {factor} {place}");
                 assert_eq!(counts.impacts, expected.impacts, "{chain:?} {factor} {place}");
                 assert_eq!(counts.masses, expected.masses, "{chain:?} {factor} {place}");
@@ -91,15 +91,16 @@ fn impacts_are_those_of_the_engine() {
 #[test]
 fn no_gap_is_below_zero() {
     for chain in chains().into_iter().filter(|chain| chain.boundary == Boundary::Walls) {
-        let all = scenarios(&chain, 1.0);
+        let starts = scenarios(&chain, 1.0);
         for until in [0.1, 3.37, 9.0, 14.2] {
-            for (found, scenario) in run(&chain, &[], until, &all).into_iter().zip(&all) {
-                let Some(found) = found else { continue };
+            for (realisation, scenario) in run(&chain, &[], until, &starts).into_iter().zip(&starts)
+            {
+                let Some(realisation) = realisation else { continue };
                 let mut engine = Engine::new(scenario).unwrap();
                 engine.advance(until).unwrap();
                 let (sin, cos) = (chain.natural_frequency * until).sin_cos();
-                let mut positions = engine.positions(until).unwrap();
-                let parts = found.free_parts(&chain).into_iter().zip(engine.free_parts());
+                let mut positions = engine.state(until).unwrap().positions;
+                let parts = realisation.free_parts(&chain).into_iter().zip(engine.free_parts());
                 for (position, (ours, theirs)) in positions.iter_mut().zip(parts) {
                     let [a, b] = [ours[0] - theirs[0], ours[1] - theirs[1]];
                     let error = a.hypot(b) / chain.spacing;
@@ -127,7 +128,7 @@ fn dips_to_zero_are_seen() {
     for decade in 1..=12 {
         let depth = 0.1_f64.powi(decade);
         for over in [depth, -depth] {
-            let all: Vec<Scenario> = (2..202)
+            let starts: Vec<Scenario> = (2..202)
                 .map(|i| {
                     // The turn is in the middle of a step at every second of these phases.
                     let phase = 0.0625 * f64::from(i % 2) + 0.125 * f64::from(i / 2) * 0.5;
@@ -136,14 +137,16 @@ fn dips_to_zero_are_seen() {
                 })
                 .filter(|scenario| Engine::new(scenario).is_ok())
                 .collect();
-            for (found, scenario) in run(&chain, &windows, 6.0, &all).into_iter().zip(&all) {
+            for (realisation, scenario) in
+                run(&chain, &windows, 6.0, &starts).into_iter().zip(&starts)
+            {
                 let hit = first(&mut Engine::new(scenario).unwrap(), 6.0).is_some();
-                let Some(mut found) = found else {
+                let Some(mut realisation) = realisation else {
                     handed_over += 1;
                     assert!(decade >= 9, "{depth:e} {scenario:?}");
                     continue;
                 };
-                let impacts = found.counts().total.impacts;
+                let impacts = realisation.counts().total.impacts;
                 assert_eq!(impacts > 0, hit, "{depth:e} {over:e} {scenario:?}");
                 hits += impacts;
             }
@@ -176,11 +179,11 @@ fn dips_after_an_impact_of_the_same_gap_are_seen() {
         (chain.forcing_frequency, scenario.forcing_frequency) = (big_w, big_w);
         let Ok(mut engine) = Engine::new(&scenario) else { continue };
         let impacts = engine.impacts(0.25).unwrap().len() as u64;
-        let found =
+        let realisation =
             run(&chain, &windows(0.25), 0.25, std::slice::from_ref(&scenario)).pop().flatten();
-        let Some(mut found) = found else { continue };
+        let Some(mut realisation) = realisation else { continue };
         returned += usize::from(impacts > 1);
-        assert_eq!(found.counts().total.impacts, impacts, "{i} {scenario:?}");
+        assert_eq!(realisation.counts().total.impacts, impacts, "{i} {scenario:?}");
     }
     assert!(returned > 500, "{returned}");
 }
@@ -191,7 +194,7 @@ fn dips_after_an_impact_of_the_same_gap_are_seen() {
 fn dips_beside_an_impact_are_seen() {
     let mut hits = [0; 2];
     for i in 0..40_000u64 {
-        let mut normals = NormalPairs::new("turns", 1, i);
+        let mut normals = NormalPairs::new("turns", Seed(1), i);
         let ([c, s], [place, depth]) = (normals.pair(), normals.pair());
         let big_w: f64 = [0.6, 1.2, 1.99][i as usize % 3];
         let rebounds = i % 2 == 0;
@@ -220,10 +223,10 @@ fn dips_beside_an_impact_are_seen() {
         if rebounds && impacts.first().is_none_or(|hit| hit.gap != 0) {
             continue;
         }
-        let found = run(&chain, &windows(0.25), 0.25, std::slice::from_ref(&scenario));
-        let Some(mut found) = found.into_iter().next().flatten() else { continue };
+        let realisation = run(&chain, &windows(0.25), 0.25, std::slice::from_ref(&scenario));
+        let Some(mut realisation) = realisation.into_iter().next().flatten() else { continue };
         hits[usize::from(rebounds)] += usize::from(impacts.len() > usize::from(rebounds));
-        assert_eq!(found.counts().total.impacts, impacts.len() as u64, "{i} {scenario:?}");
+        assert_eq!(realisation.counts().total.impacts, impacts.len() as u64, "{i} {scenario:?}");
     }
     assert!(hits.iter().all(|hits| *hits > 300), "{hits:?}");
 }
@@ -243,7 +246,7 @@ fn chains_that_are_handed_over() {
     }
     assert!(
         Abreast::new(&chain, &windows(1.0), 1e9)
-            .is_some_and(|all| !all.run(&[], &|| true).len() > 0)
+            .is_some_and(|abreast| !abreast.run(&[], &|| true).len() > 0)
     );
     let set = |free: [[f64; 2]; 3]| given(free.to_vec(), vec![[0.0; 2]; 3]);
     let moving = set([[0.0, 1.5], [0.0; 2], [0.0; 2]]);

@@ -97,7 +97,7 @@ fn three_masses_collapse_in_a_geometric_series() {
         for (_, force) in contacts {
             assert!((force - (9.0 * 0.2f64.cos() - 1.0)).abs() < 1e-12, "force {force}");
         }
-        let x = engine.positions(0.1).unwrap();
+        let x = engine.state(0.1).unwrap().positions;
         assert!((x[1] - x[0]).abs() < 2e-15 && (x[2] - x[1]).abs() < 2e-15, "{x:?}");
         if r == 0.0 {
             continue;
@@ -141,7 +141,7 @@ fn without_restitution_a_pair_sticks_only_while_it_is_pressed() {
         assert_eq!(engine.contacts(0.01).unwrap().len(), usize::from(sticks), "force {force}");
         // A contact that a force would end as soon as it begins must not begin.
         assert_eq!(engine.counters().contact_phases, u64::from(sticks), "force {force}");
-        let (x, v) = (engine.positions(0.01).unwrap(), engine.velocities(0.01).unwrap());
+        let State { positions: x, velocities: v, .. } = engine.state(0.01).unwrap();
         let rate = v[1] - v[0];
         let s = 0.01 - impacts[0].time;
         let expected = if sticks { 0.0 } else { (1.0 - 2.0 * force) * s };
@@ -295,16 +295,16 @@ fn velocities_after_a_collective_hit_are_those_of_the_law() {
                 let mut v: Vec<f64> = random.iter().map(|pair| pair[0]).collect();
                 let masses: Vec<(f64, f64)> = v.iter().map(|&v| (0.0, v)).collect();
                 let mut engine = Engine::new(&scene(&masses, &vec![0.0; n], r)).unwrap();
-                let found = run(&mut engine, 1e-11);
+                let impacts = run(&mut engine, 1e-11);
                 let expected = if r == 0.0 {
                     inelastic(&v)
                 } else {
                     let hits = sequential(&mut v, r);
-                    let alike = hits.iter().zip(&found).filter(|(a, b)| a.0 == b.gap).count();
-                    assert!(alike >= hits.len().min(10), "{r}: {hits:?} {found:?}");
+                    let alike = hits.iter().zip(&impacts).filter(|(a, b)| a.0 == b.gap).count();
+                    assert!(alike >= hits.len().min(10), "{r}: {hits:?} {impacts:?}");
                     v
                 };
-                for (a, b) in engine.velocities(1e-11).unwrap().iter().zip(&expected) {
+                for (a, b) in engine.state(1e-11).unwrap().velocities.iter().zip(&expected) {
                     assert!((a - b).abs() < 3e-8, "n = {n}, r = {r}: {a} for {b}");
                 }
             }
@@ -338,7 +338,7 @@ fn an_even_mirror_image_keeps_its_symmetry() {
         let mut engine = Engine::new(&mirror(masses, 0.3, index)).unwrap();
         let impacts = run(&mut engine, 300.0);
         assert!(impacts.len() > 300, "{}", impacts.len());
-        let x = engine.positions(300.0).unwrap();
+        let x = engine.state(300.0).unwrap().positions;
         let off = |j: usize| (x[j] + x[masses - 1 - j] - (masses + 1) as f64).abs();
         let worst = (0..masses).map(off).fold(0.0, f64::max);
         // In an odd one the middle mass is hit from both sides, one after the other.

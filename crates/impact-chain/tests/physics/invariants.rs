@@ -3,7 +3,7 @@
 use crate::reference::{Dd, Reference, sin_cos};
 use crate::traces::{EIGHT, several};
 use crate::{drawn, given, trace};
-use impact_chain::{Chain, Engine, Impact, Initial, Scenario};
+use impact_chain::{Chain, Engine, Impact, Initial, Scenario, State};
 
 fn draw(masses: usize, sigma: f64, index: u64) -> Scenario {
     drawn(&Chain { masses, ..Chain::default() }, sigma, "physics", index)
@@ -36,6 +36,43 @@ fn elastic_impacts_conserve_energy() {
         worst = worst.max((energy(&engine) / start - 1.0).abs());
     }
     assert!(worst < 8.0 * f64::EPSILON, "{worst:e}");
+}
+
+/// The energy of all masses and springs changes by the work of the forces and what impacts take:
+/// (1 − r²)/2 of the reduced mass times v².
+#[test]
+fn forces_and_impacts_balance_the_energy() {
+    let scenario = draw(9, 0.5, 3);
+    let energy = |State { positions, velocities, .. }: &State| {
+        let each = (1..).zip(positions.iter().zip(velocities));
+        each.map(|(j, (x, v))| 0.5 * (v * v + (x - f64::from(j)).powi(2))).sum::<f64>()
+    };
+    let power = |State { time, velocities, .. }: &State| {
+        let (sin, cos) = (scenario.forcing_frequency * time).sin_cos();
+        let each = velocities.iter().zip(&scenario.forcing);
+        each.map(|(v, [alpha, beta])| v * (alpha * cos + beta * sin)).sum::<f64>()
+    };
+    let mut engine = Engine::new(&scenario).unwrap();
+    let (mut work, mut loss, mut time, mut impacts) = (0.0, 0.0, 0.0, 0);
+    while time < 40.0 {
+        // Gauss's rule for three points is right to 1e-13 on so short a piece of flight.
+        let end = engine.next_event_time(40.0).unwrap().unwrap_or(40.0).min(time + 0.02);
+        let half = 0.5 * (end - time);
+        for (node, weight) in [(-0.6_f64.sqrt(), 5.0), (0.0, 8.0), (0.6_f64.sqrt(), 5.0)] {
+            let state = engine.state(time + half + node * half).unwrap();
+            work += half * weight / 9.0 * power(&state);
+        }
+        for Impact { gap, closing_speed, .. } in engine.impacts(end).unwrap() {
+            let reduced_mass = if gap == 0 || gap == 9 { 1.0 } else { 0.5 };
+            loss += 0.5 * reduced_mass * (1.0 - 0.8 * 0.8) * closing_speed * closing_speed;
+            impacts += 1;
+        }
+        time = end;
+    }
+    let error =
+        energy(&engine.state(40.0).unwrap()) - energy(&State::from_scenario(&scenario)) - work
+            + loss;
+    assert!(impacts > 100 && loss > 1.0 && error.abs() < 1e-10, "{impacts} {loss} {error:e}");
 }
 
 /// The angle whose sine is 1/x.
@@ -126,7 +163,7 @@ fn phases_keep_their_digits_at_any_time() {
         for t in [1.0, 12345.678, 1e8 + 0.1, 1e10 / 3.0, 1e12 - 0.7] {
             engine.advance(t).unwrap();
             let exact = Reference::new(&scenario).state(Dd::from(t));
-            let (x, v) = (engine.positions(t).unwrap(), engine.velocities(t).unwrap());
+            let State { positions: x, velocities: v, .. } = engine.state(t).unwrap();
             for (j, [u, speed]) in exact.iter().enumerate() {
                 let place = Dd::from((j + 1) as f64);
                 worst = worst.max((Dd::from(x[j]) - place - *u).hi.abs() / x[j]);

@@ -12,10 +12,10 @@ mod traces;
 mod windows;
 
 use impact_chain::{Chain, Engine, Impact, Initial, Scenario};
-use impact_numerics::random::NormalPairs;
+use impact_numerics::random::{NormalPairs, Seed};
 
 fn drawn(chain: &Chain, sigma: f64, stream: &str, index: u64) -> Scenario {
-    Scenario::draw(chain, sigma, &mut NormalPairs::new(stream, 1, index))
+    Scenario::draw(chain, sigma, &mut NormalPairs::new(stream, Seed(1), index))
 }
 
 /// A chain of the paper's parameters with given free parts and forcing.

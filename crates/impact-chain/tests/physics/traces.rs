@@ -4,25 +4,25 @@ use crate::reference::{Dd, Hit, Reference};
 use crate::{drawn, trace};
 use impact_chain::methods::truth::TrueMotion;
 use impact_chain::{Boundary, Chain, Engine, Overtone, Scenario, Start, State};
-use impact_numerics::random::NormalPairs;
+use impact_numerics::random::{NormalPairs, Seed};
 
 /// Compares the impacts of a scenario with those of the reference, which are returned.
-fn held(scenario: &Scenario, until: f64, of: &str) -> Vec<Hit> {
+fn compared(scenario: &Scenario, until: f64, case: &str) -> Vec<Hit> {
     let ours = trace(scenario, until);
     let theirs = Reference::new(scenario).run(until).unwrap();
-    assert_eq!(ours.len(), theirs.len(), "{of}");
+    assert_eq!(ours.len(), theirs.len(), "{case}");
     let mut worst: f64 = 0.0;
     for (a, b) in ours.iter().zip(&theirs) {
-        assert_eq!(a.gap, b.gap, "{of} at t = {}", a.time);
+        assert_eq!(a.gap, b.gap, "{case} at t = {}", a.time);
         let error = (Dd::from(a.time) - b.time).hi.abs();
         let speed = (Dd::from(a.closing_speed) - b.closing_speed).hi.abs();
-        assert!(error < 1e-9 && speed < 1e-8, "{of}: {a:?} {error:e} {speed:e}");
+        assert!(error < 1e-9 && speed < 1e-8, "{case}: {a:?} {error:e} {speed:e}");
         // Before chaos has had time, times and speeds are off by a few roundings and no more.
         let digits = [error, speed].map(|x| x * b.closing_speed.hi);
-        assert!(a.time > 4.0 || digits[0] < 4e-14, "{of}: {a:?} {digits:?}");
+        assert!(a.time > 4.0 || digits[0] < 4e-14, "{case}: {a:?} {digits:?}");
         let plain = scenario.overtones.is_empty();
         let few = digits[0].max(digits[1]) < 1e-13;
-        assert!(!plain || a.time > 5.0 || few, "{of}: {a:?} {digits:?}");
+        assert!(!plain || a.time > 5.0 || few, "{case}: {a:?} {digits:?}");
         worst = worst.max(error);
     }
     theirs
@@ -55,7 +55,8 @@ fn impacts_have_the_order_and_times_of_the_reference() {
     .into_iter()
     .enumerate()
     {
-        let theirs = held(&drawn(&chain, sigma, "reference", index), until, &format!("case {i}"));
+        let theirs =
+            compared(&drawn(&chain, sigma, "reference", index), until, &format!("case {i}"));
         let late = theirs.iter().filter(|hit| hit.time.hi > 0.9 * until).count();
         assert!(theirs.len() >= least && late > 0, "case {i} is too quiet: {}", theirs.len());
     }
@@ -66,22 +67,23 @@ fn impacts_have_the_order_and_times_of_the_reference() {
 fn the_true_motion_has_digits_beyond_doubles() {
     let chain = Chain { masses: 20, natural_frequency: 1.3, spacing: 2.0, ..Chain::default() };
     let scenario = drawn(&chain, 0.3, "truth", 1);
-    let found = TrueMotion::of(&scenario, &State::of(&scenario)).run(50.0).unwrap();
+    let start = State::from_scenario(&scenario);
+    let truth = TrueMotion::from_state(&scenario, &start).run(50.0).unwrap();
     let exact = Reference::new(&scenario).run(50.0).unwrap();
-    assert!(found.len() > 100 && found.len() == exact.len(), "{} {}", found.len(), exact.len());
-    for ((found, _), exact) in found.iter().zip(&exact) {
-        let error = (found.time - exact.time).hi.abs();
-        assert!(found.gap == exact.gap && error < 1e-24, "{found:?}: {error:e}");
+    assert!(truth.len() > 100 && truth.len() == exact.len(), "{} {}", truth.len(), exact.len());
+    for ((hit, _), exact) in truth.iter().zip(&exact) {
+        let error = (hit.time - exact.time).hi.abs();
+        assert!(hit.gap == exact.gap && error < 1e-24, "{hit:?}: {error:e}");
     }
     // d, and parts of 5 and 10 of each mass, the latter over ω² − Ω² = −1.
     let two = crate::given(vec![[3.0, 4.0], [-3.0, -4.0]], vec![[6.0, 8.0], [-6.0, -8.0]]);
-    let motion = TrueMotion::of(&two, &State::of(&two));
+    let motion = TrueMotion::from_state(&two, &State::from_scenario(&two));
     assert_eq!([0, 1, 2].map(|gap| motion.scale(gap).round()), [16.0, 31.0, 16.0]);
 }
 
 /// A chain whose components share the mean square displacement that σ = `sigma` gives.
 pub fn several(chain: &Chain, sigma: f64, frequencies: &[f64], index: u64) -> Scenario {
-    let mut normals = NormalPairs::new("components", 1, index);
+    let mut normals = NormalPairs::new("components", Seed(1), index);
     let mut scenario = Scenario::draw(chain, sigma, &mut normals);
     let w = scenario.natural_frequency;
     let share = sigma / (frequencies.len() as f64).sqrt();
@@ -118,7 +120,7 @@ fn two_and_eight_components_have_the_impacts_of_the_reference() {
             Engine::new(scenario).is_ok() && trace(scenario, until).len() > 30
         };
         let mut draws = (0..50).map(|index| several(&chain, sigma, frequencies, index));
-        let theirs = held(&draws.find(busy).unwrap(), until, &format!("case {i}"));
+        let theirs = compared(&draws.find(busy).unwrap(), until, &format!("case {i}"));
         early += theirs.iter().filter(|hit| hit.time.hi < 4.0).count();
     }
     assert!(early > 10, "{early}");

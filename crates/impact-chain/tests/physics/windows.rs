@@ -11,15 +11,15 @@ fn windows_by_a_list_of_impacts() {
     let scenario = drawn(&chain, 0.16, "windows", 2);
     let impacts = trace(&scenario, 150.0);
     let mut watch = Watch::new(&chain, &windows);
-    let found = watch.run(Engine::new(&scenario), 2, 150.0, &|| false).unwrap();
-    for (at, (transient, window)) in times.into_iter().enumerate() {
+    let counts = watch.run(Engine::new(&scenario), 2, 150.0, &|| false).unwrap();
+    for (place, (transient, window)) in times.into_iter().enumerate() {
         let within = |time| time > transient && time <= transient + window;
         let gaps: Vec<usize> =
             impacts.iter().filter(|hit| within(hit.time)).map(|hit| hit.gap).collect();
         let distinct = (0..21).filter(|gap| gaps.contains(gap)).count() as u32;
         assert!(distinct > 2, "{distinct}");
-        assert_eq!(found.distinct[at], [Some(distinct)]);
-        assert_eq!(found.impacts[at], [gaps.len() as u64]);
+        assert_eq!(counts.distinct[place], [Some(distinct)]);
+        assert_eq!(counts.impacts[place], [gaps.len() as u64]);
     }
 }
 

@@ -131,7 +131,7 @@ impl Check {
         Check { verdict, ..self }.note(why)
     }
 
-    pub fn within(self, tolerance: impl Into<Text>, reason: &str) -> Check {
+    pub fn with_tolerance(self, tolerance: impl Into<Text>, reason: &str) -> Check {
         Check { tolerance: tolerance.into(), reason: reason.into(), ..self }
     }
 
@@ -142,14 +142,14 @@ impl Check {
     /// Returns whether a report is to be refused for it: for a difference without an explanation
     /// that holds, and for a statement that is open without a reason.
     pub fn fails(&self) -> bool {
-        let open = self.verdict == Verdict::CannotBeJudged && self.note.is_empty();
-        self.verdict == Verdict::Differs || open
+        let is_open = self.verdict == Verdict::CannotBeJudged && self.note.is_empty();
+        self.verdict == Verdict::Differs || is_open
     }
 
     /// Returns the author's word for the difference, if there is one and it is explained.
     pub fn difference(&self) -> Option<&str> {
-        let explained = self.verdict == Verdict::DiffersAndExplained;
-        (explained && !self.why.is_empty()).then_some(&self.why)
+        let is_explained = self.verdict == Verdict::DiffersAndExplained;
+        (is_explained && !self.why.is_empty()).then_some(&self.why)
     }
 
     pub fn words(&self) -> &'static str {

@@ -6,7 +6,7 @@ use super::published::{Published, PublishedError, Statement};
 use super::text::Text;
 use crate::experiments::{self, Results};
 use crate::sample::Sampled;
-use crate::table::{self, Missing};
+use crate::table::Missing;
 use crate::text;
 use crate::value::{Digits, Number, Provenance};
 use impact_numerics::estimates::with_error;
@@ -43,7 +43,7 @@ impl From<Missing> for Error {
     }
 }
 
-/// A check, or why there is none.
+/// The check that a rule makes, or the reason why it makes none.
 pub type Judged = Result<Check, Error>;
 
 #[derive(Clone, Copy)]
@@ -51,7 +51,7 @@ pub struct Evidence<'a> {
     pub statement: &'a Statement,
     pub results: &'a Results,
     pub published: &'a Published,
-    /// None for a rule that is not statistical.
+    /// The level of a statistical check; `None` if the rule is not statistical.
     pub(super) level: Option<CheckLevel>,
     /// Whether a tolerance as large as the printed number is refused.
     pub(super) is_strict: bool,
@@ -61,32 +61,30 @@ impl Evidence<'_> {
     /// Returns the level of each statistical check, for a rule that is one.
     pub fn level(&self) -> Result<CheckLevel, Error> {
         let (id, remedy) = (&self.statement.id, "add `.statistical()` to it");
-        let what = || format!("the rule of {id} allows for standard errors; {remedy}");
-        self.level.ok_or_else(|| Error::Rule(what()))
+        let problem = || format!("the rule of {id} allows for standard errors; {remedy}");
+        self.level.ok_or_else(|| Error::Rule(problem()))
     }
 
     /// Returns the number with an address; without one the statement is undecided.
     #[track_caller]
     pub fn number(&self, address: &str) -> Result<f64, Error> {
-        table::number(self.results.cell(address)?).ok_or(Error::Undecided)
+        self.results.cell(address)?.as_f64().ok_or(Error::Undecided)
     }
 
     /// Returns several numbers of one row of a table, `theory.jump` or `theory.gap[sigma=0.2]`.
     #[track_caller]
     pub fn numbers<const N: usize>(&self, row: &str, names: [&str; N]) -> Result<[f64; N], Error> {
-        let mut found = [0.0; N];
-        for (number, name) in found.iter_mut().zip(names) {
+        let mut numbers = [0.0; N];
+        for (number, name) in numbers.iter_mut().zip(names) {
             *number = self.number(&format!("{row}.{name}"))?;
         }
-        Ok(found)
+        Ok(numbers)
     }
 
     /// Returns the number with an address and its standard error, which is half of the interval.
     #[track_caller]
     pub fn estimate(&self, address: &str) -> Result<Estimate, Error> {
-        let value = self.number(address)?;
-        let error = self.results.cell(address)?.standard_error();
-        Ok(Estimate { value, error, interval: [value - error, value + error] })
+        self.results.cell(address)?.estimate().ok_or(Error::Undecided)
     }
 
     /// Judges the number of a cell: it has to round to the printed one, with room for its error.
@@ -98,7 +96,8 @@ impl Evidence<'_> {
             None | Some([0.0, 0.0]) => "half a unit of the last printed digit",
             _ => "half a unit of the last printed digit, and the statistical error",
         };
-        let check = self.compared(address, half, chance)?.within(text!("± {:1}", half), reason);
+        let check =
+            self.compared(address, half, chance)?.with_tolerance(text!("± {:1}", half), reason);
         Ok(Check { basis: Basis::PrintedDigit, ..check })
     }
 
@@ -108,15 +107,15 @@ impl Evidence<'_> {
     /// a statement of another number undecided.
     #[track_caller]
     pub fn within_errors(&self, address: &str) -> Judged {
-        let (chance, found) = (self.chance(address)?, self.number(address)? * self.scale(address)?);
+        let (chance, value) = (self.chance(address)?, self.number(address)? * self.scale(address)?);
         let [below, above] = chance.unwrap_or_default();
         let tolerance = if below == above {
             text!("± {:1}", above)
         } else {
-            text!("{:2} to {:2}", found - below, found + above)
+            text!("{:2} to {:2}", value - below, value + above)
         };
         let reason = "standard errors at the level of the table";
-        let check = self.compared(address, 0.0, chance)?.within(tolerance, reason);
+        let check = self.compared(address, 0.0, chance)?.with_tolerance(tolerance, reason);
         Ok(Check { basis: Basis::Statistics, ..check })
     }
 
@@ -124,26 +123,26 @@ impl Evidence<'_> {
     #[track_caller]
     pub fn near(&self, address: &str, tolerance: f64, reason: &str) -> Judged {
         let check = self.compared(address, tolerance, Some([0.0; 2]))?;
-        let check = check.within(text!("± {}", tolerance), reason);
+        let check = check.with_tolerance(text!("± {}", tolerance), reason);
         Ok(Check { basis: Basis::OurMeasure, ..check })
     }
 
-    /// Returns how far below and above that of a cell the true number may lie by chance; none if
-    /// that is unknown.
+    /// Returns how far below and above the number of a cell the true one may lie by chance, or
+    /// `None` if that is unknown.
     #[track_caller]
     fn chance(&self, address: &str) -> Result<Option<[f64; 2]>, Error> {
         let Provenance::Ensemble { sample, .. } = self.results.cell(address)?.kind else {
             return Ok(Some([0.0; 2]));
         };
-        let found = Sampled { estimate: self.estimate(address)?, sample };
-        let is_sure = sample.is_unknown() && found.error == 0.0;
+        let sampled = Sampled { estimate: self.estimate(address)?, sample };
+        let is_sure = sample.is_unknown() && sampled.error == 0.0;
         let scale = self.scale(address)?;
-        let room = |level: CheckLevel| level.room(found).map(|room| room.map(|by| by * scale));
+        let room = |level: CheckLevel| level.room(sampled).map(|room| room.map(|by| by * scale));
         if is_sure { Ok(None) } else { self.level().map(room) }
     }
 
-    /// Returns the factor by which a number in the unit of a cell is one in units of 1, as which
-    /// printed percents are kept.
+    /// Returns the factor that converts the unit of a cell to 1, in which printed percentages are
+    /// kept.
     #[track_caller]
     fn scale(&self, address: &str) -> Result<f64, Error> {
         Ok(match self.results.cell(address)?.unit.trim_matches('$') {
@@ -154,14 +153,14 @@ impl Evidence<'_> {
     }
 
     /// Starts the check of a cell: the printed number lies no further from it than `room` and
-    /// chance allow. If chance is unknown, the results do not decide that it lies further.
+    /// chance allow. If chance is unknown, a larger distance leaves the check undecided.
     #[track_caller]
     fn compared(&self, address: &str, room: f64, chance: Option<[f64; 2]>) -> Judged {
-        let (found, printed) = (self.estimate(address)?, self.statement.number()?);
+        let (estimate, printed) = (self.estimate(address)?, self.statement.number()?);
         let scale = self.scale(address)?;
-        let found_number = match self.results.cell(address)?.number {
-            _ if scale < 1.0 => with_error(found.value * scale, found.error * scale).into(),
-            Number::Real { value, .. } if found.error == 0.0 => {
+        let shown_number = match self.results.cell(address)?.number {
+            _ if scale < 1.0 => with_error(estimate.value * scale, estimate.error * scale).into(),
+            Number::Real { value, .. } if estimate.error == 0.0 => {
                 let places = self.statement.decimals.unwrap_or(0) + 2;
                 Number::Real { value, digits: Digits::Decimals(places.max(0) as usize) }
             }
@@ -174,25 +173,18 @@ impl Evidence<'_> {
         }
         // The last bit may be rounded.
         let [below, above] = chance.unwrap_or_default();
-        let value = found.value * scale;
+        let value = estimate.value * scale;
         let room = room + if printed < value { below } else { above };
         let agrees = (value - printed).abs() <= room * (1.0 + 1e-9);
         if !agrees && chance.is_none() {
             return Err(Error::Undecided);
         }
-        Ok(self.found(found_number, agrees))
+        Ok(self.found(shown_number, agrees))
     }
 
     /// Starts a check that the results do not decide; without a note it [fails](Check::fails).
     pub fn open(&self, found: impl Into<Text>) -> Check {
-        let Statement { kind, why, sentence, id, place, statement, printed, .. } = self.statement;
-        Check {
-            why: why.clone(),
-            sentence: sentence.clone(),
-            place: place.clone(),
-            expected: printed.clone(),
-            ..Check::new(*kind, id, statement, found)
-        }
+        self.statement.open(found)
     }
 
     /// Starts a check with what was found, and whether it agrees with what was printed.
@@ -202,14 +194,14 @@ impl Evidence<'_> {
 
     /// Starts a check of whole cases, which must all agree.
     pub fn all_cases(&self, cases: usize, failures: usize) -> Check {
-        let found = text!("{} of {} cases agree", cases - failures, cases);
-        self.found(found, failures == 0 && cases > 0).within("none", "integers are exact")
+        let result = text!("{} of {} cases agree", cases - failures, cases);
+        self.found(result, failures == 0 && cases > 0).with_tolerance("none", "integers are exact")
     }
 
     /// Starts a check of a largest relative deviation, which rounding must explain.
     pub fn rounding(&self, largest: f64, allowed: f64) -> Check {
-        let found = text!("largest relative deviation {:1}", largest);
+        let result = text!("largest relative deviation {:1}", largest);
         let reason = "rounding in double precision, with room for the length of the sums";
-        self.found(found, largest <= allowed).within(text!("{:1}", allowed), reason)
+        self.found(result, largest <= allowed).with_tolerance(text!("{:1}", allowed), reason)
     }
 }

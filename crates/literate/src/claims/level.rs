@@ -18,34 +18,35 @@ pub struct CheckLevel {
 
 impl CheckLevel {
     /// Returns the level for this number of checks (at least one).
-    pub fn of(claims: usize) -> CheckLevel {
+    pub fn for_checks(claims: usize) -> CheckLevel {
         let each = -pxfm::f_expm1(pxfm::f_log1p(-FAMILY_LEVEL) / claims.max(1) as f64);
         let quantile = (100.0 * normal_quantile(1.0 - each)).ceil() / 100.0;
         CheckLevel { claims, each, quantile }
     }
 
     /// Returns the quantile for a check that compares `rows` numbers, which share its level.
-    pub fn among(self, rows: usize) -> f64 {
-        CheckLevel::of(self.claims.max(1) * rows.max(1)).quantile
+    pub fn quantile_among(self, rows: usize) -> f64 {
+        CheckLevel::for_checks(self.claims.max(1) * rows.max(1)).quantile
     }
 
-    /// Returns how far below and above an estimate the true number may lie by chance. None if that
-    /// is unknown: its error is zero, as of equal values, or its sample has fewer than two.
-    pub fn room(&self, found: Sampled) -> Option<[f64; 2]> {
-        let (value, level) = (found.value, 1.0 - self.each);
-        match found.sample {
+    /// Returns how far below and above an estimate the true number may lie by chance, or `None` if
+    /// that is unknown: the error is zero, as that of equal values is, or the sample has fewer than
+    /// two.
+    pub fn room(&self, sampled: Sampled) -> Option<[f64; 2]> {
+        let (value, level) = (sampled.value, 1.0 - self.each);
+        match sampled.sample {
             Sample::Trials(_) if !(0.0..=1.0).contains(&value) => Some([0.0; 2]),
             Sample::Trials(trials) => {
                 let part = (value * trials as f64).round() as u64;
                 let [low, high] = clopper_pearson(part, trials, level)?;
                 Some([value - low, high - value])
             }
-            _ if found.error <= 0.0 => None,
+            _ if sampled.error <= 0.0 => None,
             Sample::Values(values) => {
                 let quantile = student_quantile(level, values.checked_sub(1)? as usize)?;
-                Some([(100.0 * quantile).ceil() / 100.0 * found.error; 2])
+                Some([(100.0 * quantile).ceil() / 100.0 * sampled.error; 2])
             }
-            Sample::Unknown => Some([self.quantile * found.error; 2]),
+            Sample::Unknown => Some([self.quantile * sampled.error; 2]),
         }
     }
 }
@@ -54,16 +55,16 @@ impl CheckLevel {
 mod tests {
     use super::*;
     use crate::sample::{average, share};
-    use impact_numerics::random::NormalPairs;
+    use impact_numerics::random::{NormalPairs, Seed};
 
     /// Of 4000 papers with four right numbers, means of few values, 40 have a check that fails,
     /// with a deviation of six.
     #[test]
     fn one_in_a_hundred_papers_fails_however_few_the_values() {
         for (values, stream) in [(3, 0), (5, 4000), (20, 8000)] {
-            let level = CheckLevel::of(4);
+            let level = CheckLevel::for_checks(4);
             let fails = |paper: &u64| {
-                let mut normals = NormalPairs::new("papers", 1, stream + paper);
+                let mut normals = NormalPairs::new("papers", Seed(1), stream + paper);
                 (0..4).any(|_| {
                     let sample: Vec<f64> = (0..values).map(|_| normals.pair()[0]).collect();
                     let mean = average(&sample).unwrap();
@@ -82,10 +83,10 @@ mod tests {
         for (trials, right) in [3, 20, 100].iter().flat_map(|n| rights.map(|right| (*n, right))) {
             let (mut failed, mut chance) = (0.0, (1.0 - right).powi(trials));
             for part in 0..=trials as u64 {
-                let found = share(part, trials as u64).unwrap();
-                let [below, above] = CheckLevel::of(1).room(found).unwrap();
-                assert!(below + above > 0.0 && found.error > 0.0);
-                if !(-below..=above).contains(&(right - found.value)) {
+                let estimate = share(part, trials as u64).unwrap();
+                let [below, above] = CheckLevel::for_checks(1).room(estimate).unwrap();
+                assert!(below + above > 0.0 && estimate.error > 0.0);
+                if !(-below..=above).contains(&(right - estimate.value)) {
                     failed += chance;
                 }
                 let left = (trials as u64 - part) as f64;
@@ -99,9 +100,9 @@ mod tests {
     /// Šidák's level for 20 checks is 5.024e-4, a little above 5e-4, and z a little below.
     #[test]
     fn the_quantile_is_that_of_the_table() {
-        assert_eq!(CheckLevel::of(1).quantile, 2.58);
-        let twenty = CheckLevel::of(20);
+        assert_eq!(CheckLevel::for_checks(1).quantile, 2.58);
+        let twenty = CheckLevel::for_checks(20);
         assert!((twenty.each - 5.024e-4).abs() < 1e-7, "{}", twenty.each);
-        assert_eq!((twenty.quantile, CheckLevel::of(4).among(5)), (3.48, 3.48));
+        assert_eq!((twenty.quantile, CheckLevel::for_checks(4).quantile_among(5)), (3.48, 3.48));
     }
 }

@@ -3,20 +3,21 @@
 /// The largest exponent and number of decimals of a printed number.
 pub(super) const MAX_PLACES: i32 = 400;
 
-/// Writes a number with this many decimals; none if its last digit stands before the point.
+/// Writes a number with this many decimals, and without any if its last digit stands before the
+/// point.
 pub(super) fn written(value: f64, decimals: i32) -> String {
     format!("{value:.*}", decimals.clamp(0, MAX_PLACES) as usize)
 }
 
 /// Replaces the first digit that is not zero, or else the last zero.
 pub(super) fn with_other_digit(number: &str) -> String {
-    let at = number.find(|c: char| ('1'..='9').contains(&c)).or_else(|| number.rfind('0'));
-    let Some(at) = at else { return number.into() };
-    let digit = match number.as_bytes()[at] {
+    let index = number.find(|c: char| ('1'..='9').contains(&c)).or_else(|| number.rfind('0'));
+    let Some(index) = index else { return number.into() };
+    let digit = match number.as_bytes()[index] {
         b'9' => '8',
         digit => (digit + 1).into(),
     };
-    format!("{}{digit}{}", &number[..at], &number[at + 1..])
+    format!("{}{digit}{}", &number[..index], &number[index + 1..])
 }
 
 const RAISED: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹⁻";
@@ -24,24 +25,24 @@ const RAISED: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹⁻";
 /// Reads a text that is a number alone, such as 0.12, 1.2e5, 3·10⁻⁴, 12 % or 0.5 ‰. Returns the
 /// number, and the place of its last digit: how many decimals it has when it is written without a
 /// power of ten, and −3 if it was printed in thousands.
-pub(super) fn number_alone(text: &str) -> Option<(f64, i32)> {
-    let text = text.replace('−', "-");
-    let (text, shift) = match (text.strip_suffix('%'), text.strip_suffix('‰')) {
+pub(super) fn number_alone(printed: &str) -> Option<(f64, i32)> {
+    let printed = printed.replace('−', "-");
+    let (printed, shift) = match (printed.strip_suffix('%'), printed.strip_suffix('‰')) {
         (Some(number), _) => (number.trim_end(), 2),
         (_, Some(number)) => (number.trim_end(), 3),
-        _ => (&text[..], 0),
+        _ => (&printed[..], 0),
     };
-    let (mantissa, exponent) = match text.find(|c| RAISED.contains(c)) {
-        Some(at) => (before_power(&text[..at])?, lowered(&text[at..])?),
+    let (mantissa, exponent) = match printed.find(|c| RAISED.contains(c)) {
+        Some(index) => (before_power(&printed[..index])?, lowered(&printed[index..])?),
         None => {
-            let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
+            let (mantissa, exponent) = printed.split_once(['e', 'E']).unwrap_or((printed, "0"));
             (mantissa, exponent.to_string())
         }
     };
     let exponent = exponent.parse::<i16>().ok()? as i32 - shift;
     let digits = mantissa.strip_prefix(['-', '+']).unwrap_or(mantissa);
     let (whole, after) = digits.split_once('.').unwrap_or((digits, ""));
-    let is_number = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
+    let is_number = |printed: &str| printed.bytes().all(|byte| byte.is_ascii_digit());
     if whole.is_empty() || !is_number(whole) || !is_number(after) {
         return None;
     }

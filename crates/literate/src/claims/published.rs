@@ -1,7 +1,8 @@
 //! Reads what the paper printed from `published.toml`.
 
-use super::check::Kind;
+use super::check::{Check, Kind};
 use super::numeral::{MAX_PLACES, number_alone, with_other_digit, written};
+use super::text::Text;
 use super::words::Words;
 use crate::input::{one_line, toml_fault};
 use serde::Deserialize;
@@ -61,31 +62,35 @@ pub struct Statement {
 pub struct PublishedError(pub(super) String);
 
 impl PublishedError {
-    fn at(line: usize, id: &str, what: &str) -> PublishedError {
-        PublishedError(format!("published.toml:{line}: the id {:?}: {what}", one_line(id, 80)))
+    fn in_entry(line: usize, id: &str, problem: &str) -> PublishedError {
+        PublishedError(format!("published.toml:{line}: the id {:?}: {problem}", one_line(id, 80)))
     }
 
-    fn missing(what: &str, id: &str) -> PublishedError {
+    fn missing(kind: &str, id: &str) -> PublishedError {
         let remedy = "add it, or remove the check that asks for it";
-        PublishedError(format!("published.toml: no {what} {id:?}; {remedy}"))
+        PublishedError(format!("published.toml: no {kind} {id:?}; {remedy}"))
     }
 }
 
 impl Published {
     /// Reads the file; an error has the line of what is wrong.
-    pub fn parse(text: &str) -> Result<Published, PublishedError> {
-        let fault = |error| PublishedError(format!("published.toml:{}", toml_fault(text, &error)));
-        let mut published: Published = toml::from_str(text).map_err(fault)?;
-        let ids: Vec<(&str, usize)> = text.lines().zip(1..).filter_map(id_of).collect();
-        let line = |found: Option<&(&str, usize)>| found.map_or(1, |(_, line)| *line);
+    pub fn parse(toml: &str) -> Result<Published, PublishedError> {
+        let fault = |error| PublishedError(format!("published.toml:{}", toml_fault(toml, &error)));
+        let mut published: Published = toml::from_str(toml).map_err(fault)?;
+        let ids: Vec<(&str, usize)> = toml.lines().zip(1..).filter_map(id_of).collect();
+        let line = |entry: Option<&(&str, usize)>| entry.map_or(1, |(_, line)| *line);
         let last_line = |id: &str| line(ids.iter().rfind(|(known, _)| *known == id));
         for statement in &mut published.statements {
             statement.line = last_line(&statement.id);
-            statement.read_number().map_err(|what| statement.fault(what))?;
+            statement.read_number().map_err(|problem| statement.fault(problem))?;
         }
         for Parameter { id, value, .. } in &published.parameters {
             if !value.is_finite() {
-                return Err(PublishedError::at(last_line(id), id, "value is not a finite number"));
+                return Err(PublishedError::in_entry(
+                    last_line(id),
+                    id,
+                    "value is not a finite number",
+                ));
             }
         }
         let mut seen = BTreeSet::new();
@@ -93,28 +98,29 @@ impl Published {
         for id in parameters.chain(published.statements.iter().map(|statement| &statement.id)) {
             if !seen.insert(id) {
                 let first = line(ids.iter().find(|(known, _)| known == id));
-                let what = format!("it is also on line {first}; give each entry its own");
-                return Err(PublishedError::at(last_line(id), id, &what));
+                let problem = format!("it is also on line {first}; give each entry its own");
+                return Err(PublishedError::in_entry(last_line(id), id, &problem));
             }
         }
         Ok(published)
     }
 
     pub fn statement(&self, id: &str) -> Result<&Statement, PublishedError> {
-        let found = self.statements.iter().find(|statement| statement.id == id);
-        found.ok_or_else(|| PublishedError::missing("statement", id))
+        let statement = self.statements.iter().find(|statement| statement.id == id);
+        statement.ok_or_else(|| PublishedError::missing("statement", id))
     }
 
     pub fn parameter(&self, id: &str) -> Result<f64, PublishedError> {
-        let found = self.parameters.iter().find(|parameter| parameter.id == id);
-        found.map(|one| one.value).ok_or_else(|| PublishedError::missing("parameter", id))
+        let parameter = self.parameters.iter().find(|parameter| parameter.id == id);
+        parameter.map(|one| one.value).ok_or_else(|| PublishedError::missing("parameter", id))
     }
 
     /// Refuses a parameter with another number than the one that a check uses.
     pub(super) fn compare(&self, id: &str, number: f64) -> Result<(), PublishedError> {
         let value = self.parameter(id)?;
-        let what = "restore the one that is wrong";
-        let fault = format!("the parameter {id:?} is {value}, and its check uses {number}; {what}");
+        let remedy = "restore the one that is wrong";
+        let fault =
+            format!("the parameter {id:?} is {value}, and its check uses {number}; {remedy}");
         let fault = PublishedError(format!("published.toml: {fault}"));
         if value == number { Ok(()) } else { Err(fault) }
     }
@@ -137,11 +143,11 @@ impl Statement {
         Statement { kind, id, statement, ..Statement::default() }
     }
 
-    pub(super) fn fault(&self, what: &str) -> PublishedError {
-        PublishedError::at(self.line, &self.id, what)
+    pub(super) fn fault(&self, problem: &str) -> PublishedError {
+        PublishedError::in_entry(self.line, &self.id, problem)
     }
 
-    /// Reads the number from `printed` if this is one, and checks one that is given besides.
+    /// Reads the number from `printed` if this is one, and checks a number that is given besides.
     fn read_number(&mut self) -> Result<(), &'static str> {
         if let Some((value, decimals)) = number_alone(&self.printed) {
             let agrees = self.value.is_none_or(|given| given == value)
@@ -161,8 +167,9 @@ impl Statement {
             return Err("value is not a number with so many `decimals`");
         }
         // As a number, per cent or per mille.
-        let way = |shift| written(value * power_of_ten(shift), (decimals - shift).max(0));
-        if value.fract() != 0.0 && ![0, 2, 3].map(way).iter().any(|way| self.printed.contains(way))
+        let as_printed = |shift| written(value * power_of_ten(shift), (decimals - shift).max(0));
+        if value.fract() != 0.0
+            && ![0, 2, 3].map(as_printed).iter().any(|form| self.printed.contains(form))
         {
             return Err("value does not stand in printed; write both as they were printed");
         }
@@ -170,26 +177,38 @@ impl Statement {
         Ok(())
     }
 
-    /// Returns it with another first digit in its number and in its words; none without a number.
+    /// Returns a misprinted copy of the statement, with another first digit in its number and in
+    /// what was printed, or `None` if the statement has no number.
     pub(super) fn misprint(&self) -> Option<Statement> {
-        let shown = self.shown()?;
-        let value = with_other_digit(&shown).parse().ok();
+        let digits = self.printed_digits()?;
+        let value = with_other_digit(&digits).parse().ok();
         let printed = match number_alone(&self.printed) {
             Some(_) => with_other_digit(&self.printed),
-            None => self.printed.replacen(&shown, &with_other_digit(&shown), 1),
+            None => self.printed.replacen(&digits, &with_other_digit(&digits), 1),
         };
         Some(Statement { value, printed, ..self.clone() })
     }
 
-    pub(super) fn shown(&self) -> Option<String> {
+    pub(super) fn printed_digits(&self) -> Option<String> {
         Some(written(self.value?, self.decimals?))
+    }
+
+    /// Starts the check of the statement, which is open so far.
+    pub(super) fn open(&self, found: impl Into<Text>) -> Check {
+        Check {
+            why: self.why.clone(),
+            sentence: self.sentence.clone(),
+            place: self.place.clone(),
+            expected: self.printed.clone(),
+            ..Check::new(self.kind, &self.id, &self.statement, found)
+        }
     }
 
     pub fn number(&self) -> Result<f64, PublishedError> {
         self.value.ok_or_else(|| {
-            let what = "write it as `value`, with `decimals`, as many as were printed";
+            let remedy = "write it as `value`, with `decimals`, as many as were printed";
             let printed = &self.printed;
-            self.fault(&format!("its check needs the number in printed = {printed:?}; {what}"))
+            self.fault(&format!("its check needs the number in printed = {printed:?}; {remedy}"))
         })
     }
 
@@ -246,7 +265,7 @@ mod tests {
 
     #[test]
     fn a_number_that_is_not_what_was_printed_is_refused_with_its_line() {
-        for (fields, what) in [
+        for (fields, problem) in [
             ("printed = \"x\"\nvalue = 0.12", "value needs `decimals`"),
             ("printed = \"x\"\nvalue = 0.125\ndecimals = 2", "with so many `decimals`"),
             ("printed = \"x\"\nvalue = 1\ndecimals = 99999", "with so many `decimals`"),
@@ -259,7 +278,7 @@ mod tests {
         ] {
             let error = parse(fields).unwrap_err();
             assert!(error.starts_with("published.toml:2: the id \"a\": "), "{error}");
-            assert!(error.contains(what), "{error}");
+            assert!(error.contains(problem), "{error}");
         }
         let twice = entry("printed = \"x\"") + &entry("printed = \"y\"");
         let error = Published::parse(&twice).unwrap_err().to_string();

@@ -15,7 +15,7 @@ pub struct Rule {
     reads: Option<&'static str>,
     pub uses: Vec<(&'static str, f64)>,
     basis: Option<Basis>,
-    statistical: bool,
+    is_statistical: bool,
     may_stay_open: bool,
     pub(crate) place: &'static Location<'static>,
     judge: Box<dyn Fn(&Evidence<'_>) -> Judged + Send + Sync>,
@@ -30,8 +30,8 @@ impl Rule {
     ) -> Rule {
         let (judge, place) = (Box::new(judge), Location::caller());
         let (relation, reads, uses, basis) = (None, None, Vec::new(), None);
-        let (statistical, may_stay_open) = (false, false);
-        Rule { id, relation, reads, uses, basis, statistical, may_stay_open, place, judge }
+        let (is_statistical, may_stay_open) = (false, false);
+        Rule { id, relation, reads, uses, basis, is_statistical, may_stay_open, place, judge }
     }
 
     /// Makes it the rule of a relation between numbers that must hold. It may allow for standard
@@ -44,7 +44,7 @@ impl Rule {
     /// Counts the rule as statistical: it compares random numbers and allows for their standard
     /// errors, so few that all statistical checks together rarely fail by chance.
     pub fn statistical(self) -> Rule {
-        Rule { statistical: true, ..self }
+        Rule { is_statistical: true, ..self }
     }
 
     /// Sets what the verdict rests on, also where the results do not decide.
@@ -69,11 +69,6 @@ impl Rule {
         Rule { may_stay_open: true, ..self }
     }
 
-    /// Small samples may decide nothing.
-    fn is_strict(&self, evidence: &Evidence<'_>) -> bool {
-        evidence.results.profile == Profile::Full && !self.may_stay_open
-    }
-
     pub fn is_of_statement(&self) -> bool {
         self.relation.is_none()
     }
@@ -89,25 +84,20 @@ impl Rule {
         }
     }
 
-    pub(super) fn check(&self, evidence: Evidence<'_>) -> Judged {
-        let level = evidence.level.filter(|_| self.statistical || !self.is_of_statement());
-        let is_strict = self.is_strict(&evidence);
-        let judged = self.judged(&Evidence { level, is_strict, ..evidence });
-        judged.map_err(|error| Error::Check { id: self.id.into(), error: Box::new(error) })
-    }
-
     fn judged(&self, evidence: &Evidence<'_>) -> Judged {
         let statement = evidence.statement;
         if let Some(words) = self.reads {
-            let words = words.replace("{}", &statement.shown().unwrap_or_default());
+            let words = words.replace("{}", &statement.printed_digits().unwrap_or_default());
             if words != statement.printed {
-                let what = "and not its printed; restore the one that is wrong";
-                return Err(statement.fault(&format!("its check judges {words:?}, {what}")).into());
+                let remedy = "and not its printed; restore the one that is wrong";
+                return Err(statement
+                    .fault(&format!("its check judges {words:?}, {remedy}"))
+                    .into());
             }
         }
         let mut check = match (self.judge)(evidence) {
             Err(Error::Undecided) => {
-                if self.is_strict(evidence) {
+                if evidence.is_strict {
                     evidence.open("a number that it needs is not there")
                 } else {
                     evidence.open("–").note("The available results do not decide it.")
@@ -115,8 +105,8 @@ impl Rule {
             }
             judged => judged?,
         };
-        for text in [&check.found, &check.tolerance, &check.note] {
-            if let Some(number) = text.0.iter().find(|number| !number.is_finite()) {
+        for sentence in [&check.found, &check.tolerance, &check.note] {
+            if let Some(number) = sentence.0.iter().find(|number| !number.is_finite()) {
                 let remedy = "correct it, or return `Undecided` where there is none";
                 let number = Text::from(number.clone());
                 return Err(Error::Rule(format!("a number of it is {number}; {remedy}")));
@@ -128,7 +118,7 @@ impl Rule {
 }
 
 pub fn level_of(rules: &[Rule]) -> CheckLevel {
-    CheckLevel::of(rules.iter().filter(|rule| rule.statistical).count())
+    CheckLevel::for_checks(rules.iter().filter(|rule| rule.is_statistical).count())
 }
 
 /// Checks that each rule has its statement, and each parameter that a rule uses its number.
@@ -142,6 +132,30 @@ pub(crate) fn check_rules(published: &Published, rules: &[Rule]) -> Result<(), E
     Ok(())
 }
 
+/// What rules are judged by: printed statements, results, and the level of statistical checks.
+#[derive(Clone, Copy)]
+pub(super) struct Judge<'a> {
+    published: &'a Published,
+    pub results: &'a Results,
+    level: CheckLevel,
+}
+
+impl<'a> Judge<'a> {
+    pub fn new(published: &'a Published, rules: &[Rule], results: &'a Results) -> Judge<'a> {
+        Judge { published, results, level: level_of(rules) }
+    }
+
+    pub fn check(&self, rule: &Rule, statement: &Statement) -> Judged {
+        let Judge { published, results, level } = *self;
+        let allows_errors = rule.is_statistical || !rule.is_of_statement();
+        // Small samples may decide nothing.
+        let is_strict = results.profile == Profile::Full && !rule.may_stay_open;
+        let level = Some(level).filter(|_| allows_errors);
+        let judged = rule.judged(&Evidence { statement, results, published, level, is_strict });
+        judged.map_err(|error| Error::Check { id: rule.id.into(), error: Box::new(error) })
+    }
+}
+
 /// Judges all statements, in their order, and then all relations. A statement without a rule stays
 /// open and [fails](Check::fails); a rule without a statement, or a number, is an error.
 pub fn judge_all(
@@ -151,24 +165,17 @@ pub fn judge_all(
 ) -> Result<Vec<Check>, Error> {
     check_rules(published, rules)?;
     results.tables()?;
-    let level = Some(level_of(rules));
+    let judge = Judge::new(published, rules, results);
     let mut checks = Vec::new();
     for statement in &published.statements {
         let rule = rules.iter().find(|rule| rule.is_of_statement() && rule.id == statement.id);
-        let evidence = Evidence { statement, results, published, level, is_strict: false };
-        checks.push(rule.map_or(Ok(evidence.open("–")), |rule| rule.check(evidence))?);
+        checks.push(match rule {
+            Some(rule) => judge.check(rule, statement)?,
+            None => statement.open("–"),
+        });
     }
-    for rule in rules {
-        if !rule.is_of_statement() {
-            let statement = &rule.statement(published)?;
-            checks.push(rule.check(Evidence {
-                statement,
-                results,
-                published,
-                level,
-                is_strict: false,
-            })?);
-        }
+    for rule in rules.iter().filter(|rule| !rule.is_of_statement()) {
+        checks.push(judge.check(rule, &rule.statement(published)?)?);
     }
     Ok(checks)
 }
@@ -180,19 +187,14 @@ pub fn blind_to_their_number(
     rules: &[Rule],
     results: &Results,
 ) -> Vec<&'static str> {
-    let level = Some(level_of(rules));
-    let mut blind = Vec::new();
-    for rule in rules.iter().filter(|rule| rule.is_of_statement()) {
-        let Ok(statement) = published.statement(rule.id) else { continue };
-        let Some(statement) = &statement.misprint() else { continue };
-        let judged =
-            rule.check(Evidence { statement, results, published, level, is_strict: false });
-        let verdict = judged.map(|check| check.verdict);
-        if matches!(verdict, Ok(Verdict::Reproduced | Verdict::DiffersAndExplained)) {
-            blind.push(rule.id);
-        }
-    }
-    blind
+    let judge = Judge::new(published, rules, results);
+    let is_blind = |rule: &&Rule| {
+        let misprint = published.statement(rule.id).ok().and_then(Statement::misprint);
+        let verdict = misprint.map(|misprint| judge.check(rule, &misprint).map(|it| it.verdict));
+        matches!(verdict, Some(Ok(Verdict::Reproduced | Verdict::DiffersAndExplained)))
+    };
+    let rules = rules.iter().filter(|rule| rule.is_of_statement());
+    rules.filter(is_blind).map(|rule| rule.id).collect()
 }
 
 #[cfg(test)]
@@ -272,15 +274,15 @@ mod tests {
     #[test]
     fn shares_equal_values_and_few_are_not_certain() {
         use crate::sample::{Sampled, average, share};
-        let judge = |found: Option<Sampled>, judge: fn(&Evidence<'_>) -> Judged| {
-            let table = Table::of("toy.all", &[()], |()| 9).estimate("mean", "1", "", |()| found);
+        let judge = |sampled: Option<Sampled>, judge: fn(&Evidence<'_>) -> Judged| {
+            let table = Table::of("toy.all", &[()], |()| 9).estimate("mean", "1", "", |()| sampled);
             let published = Published::parse(PUBLISHED).unwrap();
             let results = Results::made_up(vec![table.done()]);
             let rule = [Rule::new("rise", judge).statistical()];
             let mut checks = judge_all(&published, &rule, &results).unwrap();
             (checks[0].verdict, std::mem::take(&mut checks[0].tolerance).to_string())
         };
-        let within = |found| judge(found, |e| e.within_errors("toy.all.mean"));
+        let within = |sampled| judge(sampled, |e| e.within_errors("toy.all.mean"));
         use Verdict::{CannotBeJudged as Open, Differs as No, Reproduced as Yes};
         assert_eq!(within(share(0, 20)), (Yes, "0 to 0.23".into()));
         assert_eq!(within(share(0, 100)), (No, "0 to 0.052".into()));

@@ -9,7 +9,7 @@ use std::fmt;
 #[macro_export]
 macro_rules! text {
     ($sentence:expr $(, $number:expr)* $(,)?) => {
-        $crate::claims::Text::of($sentence, [$($crate::value::Number::from($number)),*])
+        $crate::claims::Text::from_sentence($sentence, [$($crate::value::Number::from($number)),*])
     };
 }
 
@@ -19,16 +19,29 @@ macro_rules! text {
 pub struct Text(pub Vec<Number>);
 
 impl Text {
-    pub fn of(sentence: &str, numbers: impl IntoIterator<Item = Number>) -> Text {
+    /// Fills the marks of a sentence, `{share}`, or `{share:2}` for two digits, with the numbers
+    /// that `number_of` returns for their names; the error is a mark without a number.
+    pub(super) fn fill(
+        sentence: &str,
+        mut number_of: impl FnMut(&str) -> Option<Number>,
+    ) -> Result<Text, &str> {
         let mut pieces = sentence.split('{');
         let mut text = Text::from(pieces.next().unwrap_or_default());
-        for (number, piece) in numbers.into_iter().zip(pieces) {
-            let (digits, words) = piece.split_once('}').unwrap_or(("", piece));
-            let digits = digits.strip_prefix(':').and_then(|digits| digits.parse().ok());
-            text.0.push(digits.map_or(number.clone(), |digits| number.significant(digits)));
-            text = text.then(words);
+        for piece in pieces {
+            let (mark, words) = piece.split_once('}').unwrap_or((piece, ""));
+            let (name, digits) = mark.split_once(':').unwrap_or((mark, ""));
+            let mut number = number_of(name).ok_or(mark)?;
+            if !digits.is_empty() {
+                number = number.significant(digits.parse().map_err(|_| mark)?);
+            }
+            text = text.then(number).then(words);
         }
-        text
+        Ok(text)
+    }
+
+    pub fn from_sentence(sentence: &str, numbers: impl IntoIterator<Item = Number>) -> Text {
+        let mut numbers = numbers.into_iter();
+        Text::fill(sentence, |_| numbers.next()).unwrap_or_default()
     }
 
     pub fn then(mut self, more: impl Into<Text>) -> Text {
@@ -68,7 +81,7 @@ impl From<Text> for String {
 impl fmt::Display for Text {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for piece in &self.0 {
-            f.write_str(&print(piece, Style::default()).plain())?;
+            f.write_str(&print(piece, Style::default()).to_plain_text())?;
         }
         Ok(())
     }

@@ -12,13 +12,13 @@ impl Evidence<'_> {
         let [found, tolerance, reason, note] = self.filled(KEYS, numbers)?;
         let check = self.open(found).note(note);
         Ok(match agrees.into() {
-            Some(agrees) => check.judged(agrees).within(tolerance, &reason.to_string()),
+            Some(agrees) => check.judged(agrees).with_tolerance(tolerance, &reason.to_string()),
             None => check,
         })
     }
 
     /// Makes one text of the check, for one that some results alone have or that has other numbers.
-    pub fn text(&self, key: &str, numbers: Numbers<'_>) -> Result<Text, Error> {
+    pub fn sentence(&self, key: &str, numbers: Numbers<'_>) -> Result<Text, Error> {
         let [text] = self.filled([key], numbers)?;
         Ok(text)
     }
@@ -28,7 +28,7 @@ impl Evidence<'_> {
         keys: [&str; N],
         numbers: Numbers<'_>,
     ) -> Result<[Text; N], Error> {
-        let texts = self.published.words.texts(&self.statement.id, keys, numbers);
+        let texts = self.published.words.fill(&self.statement.id, keys, numbers);
         Ok(texts.map_err(PublishedError)?)
     }
 }
@@ -59,8 +59,8 @@ mod tests {
             "[[statement]]\nid = \"rise\"\nplace = \"a\"\nstatement = \"b\"\nprinted = \"c\"";
         let published = Published::parse(statement).unwrap();
         let rules = [rule];
-        let words = Words::read(&Templates::of([("claims/a.toml", file)]));
-        let words = words.and_then(|words| words.taken(&[rules[0].id]))?;
+        let words = Words::read(&Templates::from_files([("claims/a.toml", file)]));
+        let words = words.and_then(|words| words.refuse_unused(&[rules[0].id]))?;
         let published = Published { words, ..published };
         let checks = judge_all(&published, &rules, &Results::made_up(Vec::new()));
         Ok(checks.map_err(|error| error.to_string())?.remove(0))

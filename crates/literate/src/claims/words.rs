@@ -47,13 +47,13 @@ impl Words {
                     |key: &str| key == STATEMENT || KEYS.iter().any(|known| key.starts_with(known));
                 if let Some(key) = own.keys().find(|key| !is_known(key)) {
                     let names = KEYS.join(", ");
-                    let what = format!("{path}: [{id}] has {key}; its texts are {names}");
-                    return Err(what);
+                    let problem = format!("{path}: [{id}] has {key}; its texts are {names}");
+                    return Err(problem);
                 }
                 let texts = shared.clone().into_iter().chain(own).collect();
                 if let Some((other, _)) = words.0.insert(id.clone(), (path.into(), texts)) {
-                    let what = format!("{path}: [{id}] is also in {other}; remove one");
-                    return Err(what);
+                    let problem = format!("{path}: [{id}] is also in {other}; remove one");
+                    return Err(problem);
                 }
             }
         }
@@ -65,26 +65,28 @@ impl Words {
     }
 
     /// Refuses texts that no rule takes.
-    pub(crate) fn taken(self, ids: &[&str]) -> Result<Words, String> {
+    pub(crate) fn refuse_unused(self, ids: &[&str]) -> Result<Words, String> {
         let of_none = |(id, _): &(&String, _)| !ids.contains(&id.as_str());
         if let Some((id, (path, _))) = self.0.iter().find(of_none) {
-            let what = format!("{path}: no check has the id of [{id}]; correct it, or remove it");
-            return Err(what);
+            let problem =
+                format!("{path}: no check has the id of [{id}]; correct it, or remove it");
+            return Err(problem);
         }
         Ok(self)
     }
 
-    /// Fills texts of which the first may not be missing.
-    pub(super) fn texts<const N: usize>(
+    /// Returns the texts of a check with these keys, filled with numbers. The first key must exist,
+    /// and each number must be used.
+    pub(super) fn fill<const N: usize>(
         &self,
         id: &str,
         keys: [&str; N],
         numbers: Numbers<'_>,
     ) -> Result<[Text; N], String> {
         let words = self.0.get(id);
-        let fault = |what: &str| {
+        let fault = |problem: &str| {
             let path = words.map_or("claims", |(path, _)| path);
-            format!("{path}: [{id}] {what}")
+            format!("{path}: [{id}] {problem}")
         };
         let (_, sentences) = words.ok_or_else(|| fault("is missing; write it"))?;
         if let Some(key) = keys.first().filter(|key| !sentences.contains_key(**key)) {
@@ -92,32 +94,24 @@ impl Words {
         }
         let names: Vec<&str> = numbers.iter().map(|(name, _)| *name).collect();
         let mut unused: BTreeSet<&str> = names.iter().copied().collect();
-        let mut texts = [const { Text(Vec::new()) }; N];
-        for (text, key) in texts.iter_mut().zip(keys) {
+        let mut filled_texts = [const { Text(Vec::new()) }; N];
+        for (filled, key) in filled_texts.iter_mut().zip(keys) {
             let Some(sentence) = sentences.get(key) else { continue };
-            let mut pieces = sentence.split('{');
-            *text = Text::from(pieces.next().unwrap_or_default());
-            for piece in pieces {
-                let (mark, words) = piece.split_once('}').unwrap_or((piece, ""));
-                let (name, digits) = mark.split_once(':').unwrap_or((mark, ""));
-                let number = numbers.iter().find(|(known, _)| *known == name);
-                let digits = if digits.is_empty() { Ok(None) } else { digits.parse().map(Some) };
-                let (Some((_, number)), Ok(digits)) = (number, digits) else {
-                    let what = format!("has {{{mark}}} in {key}; write {{name}} or {{name:3}}");
-                    let names = if names.is_empty() { "none".into() } else { names.join(", ") };
-                    return Err(fault(&format!("{what}, with a name of {names}")));
-                };
+            let number_of = |name: &str| {
                 unused.remove(name);
-                let digits = digits.map(|digits| number.clone().significant(digits));
-                let number = digits.unwrap_or_else(|| number.clone());
-                *text = std::mem::take(text).then(number).then(words);
-            }
+                numbers.iter().find(|(known, _)| *known == name).map(|(_, number)| number.clone())
+            };
+            *filled = Text::fill(sentence, number_of).map_err(|mark| {
+                let problem = format!("has {{{mark}}} in {key}; write {{name}} or {{name:3}}");
+                let names = if names.is_empty() { "none".into() } else { names.join(", ") };
+                fault(&format!("{problem}, with a name of {names}"))
+            })?;
         }
         match unused.first() {
-            None => Ok(texts),
+            None => Ok(filled_texts),
             Some(name) => {
-                let what = format!("does not use {{{name}}} in {}", keys.join(", "));
-                Err(fault(&format!("{what}; write it there, or remove it from its rule")))
+                let problem = format!("does not use {{{name}}} in {}", keys.join(", "));
+                Err(fault(&format!("{problem}; write it there, or remove it from its rule")))
             }
         }
     }

@@ -1,20 +1,21 @@
 //! Judges by wrong evidence: a verdict that no wrong result moves says nothing.
 
 use super::check::{Kind, Verdict};
-use super::evidence::{Error, Evidence};
+use super::evidence::Error;
 use super::numeral::with_other_digit;
 use super::published::{Published, Statement};
-use super::rule::{Rule, level_of};
+use super::rule::{Judge, Rule};
 use crate::experiments::Results;
 use serde_json::Value;
 use std::cell::Cell;
 use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// A wrong number in the place of a number, made of it and its standard error.
+/// Makes a wrong number, or no number, of a number and its standard error.
 type Change = fn(f64, f64) -> Option<f64>;
 
-/// Small changes first: another first digit, ten standard errors, another sign, another size, none.
+/// The changes, small ones first: another first digit, ten standard errors up or down, another
+/// sign, another size, no number.
 const CHANGES: [Change; 7] = [
     |value, _| with_other_digit(&value.to_string()).parse().ok(),
     |value, error| Some(value + 10.0 * error),
@@ -28,7 +29,7 @@ const CHANGES: [Change; 7] = [
 /// How many of them are small.
 const SMALL: usize = 3;
 
-/// The way to numbers of a result: names of fields, and none for all elements of a list.
+/// The path to numbers in a result: names of fields, and `None` for all elements of a list.
 type Way = Vec<Option<String>>;
 
 /// A rule whose verdict no wrong result has moved so far, and what it reads.
@@ -58,65 +59,57 @@ pub fn never_moved(
     results: &Results,
     open: bool,
 ) -> Result<Vec<&'static str>, Error> {
-    let (level, mut left) = (Some(level_of(rules)), Vec::new());
+    let mut unmoved = Vec::new();
     for rule in rules {
         let (statement, copy) = (rule.statement(published)?, results.copy());
-        let evidence =
-            Evidence { statement: &statement, results: &copy, published, level, is_strict: false };
-        let verdict = rule.check(evidence)?.verdict;
+        let verdict = Judge::new(published, rules, &copy).check(rule, &statement)?.verdict;
         if statement.kind != Kind::Definition && (open || verdict != Verdict::CannotBeJudged) {
-            left.push(Unmoved { rule, statement, verdict, read: copy.read() });
+            unmoved.push(Unmoved { rule, statement, verdict, read: copy.read() });
         }
     }
-    let names: BTreeSet<String> = left.iter().flat_map(|unmoved| unmoved.read.clone()).collect();
+    let names: BTreeSet<String> = unmoved.iter().flat_map(|unmoved| unmoved.read.clone()).collect();
     TRYING.set(true);
     for name in &names {
         let mut try_all = |wrong: &dyn Fn(Change) -> Option<Results>| {
             for (number, change) in CHANGES.into_iter().enumerate() {
-                if !left.iter().any(|one| one.read.contains(name)) {
+                if !unmoved.iter().any(|rule| rule.read.contains(name)) {
                     return;
                 }
                 let Some(wrong) = &wrong(change) else { continue };
-                let moves = |one: &Unmoved<'_>| {
-                    let evidence = Evidence {
-                        statement: &one.statement,
-                        results: wrong,
-                        published,
-                        level,
-                        is_strict: false,
-                    };
-                    one.read.contains(name) && one.is_moved(evidence, number < SMALL)
+                let judge = Judge::new(published, rules, wrong);
+                let moves = |rule: &Unmoved<'_>| {
+                    rule.read.contains(name) && rule.is_moved(judge, number < SMALL)
                 };
-                left.retain(|one| !moves(one));
+                unmoved.retain(|rule| !moves(rule));
             }
         };
         if let Ok(table) = results.table(name) {
             for column in 0..table.width() {
-                let changed = |change| table.changed(column, change);
+                let changed = |change| table.with_column_changed(column, change);
                 try_all(&|change| Some(results.with_table(changed(change)?)));
             }
         } else if let Some(result) = results.json(name) {
-            let mut ways = BTreeSet::new();
-            find_numbers(&result, &mut Vec::new(), &mut ways);
-            for way in ways {
+            let mut paths = BTreeSet::new();
+            find_numbers(&result, &mut Vec::new(), &mut paths);
+            for path in paths {
                 try_all(&|change| {
                     let mut wrong = result.clone();
-                    change_numbers(&mut wrong, &way, 0.0, change);
+                    change_numbers(&mut wrong, &path, 0.0, change);
                     results.with_json(name, wrong)
                 });
             }
         }
     }
     TRYING.set(false);
-    Ok(left.iter().map(|unmoved| unmoved.rule.id).collect())
+    Ok(unmoved.iter().map(|unmoved| unmoved.rule.id).collect())
 }
 
 impl Unmoved<'_> {
-    /// Returns whether the verdict by wrong evidence is one that the right one excludes. A rule
-    /// that fails or panics has none. A small change has to break an explanation.
-    fn is_moved(&self, evidence: Evidence<'_>, is_small: bool) -> bool {
-        let judge = AssertUnwindSafe(|| self.rule.check(evidence));
-        let Ok(Ok(check)) = catch_unwind(judge) else { return false };
+    /// Returns whether wrong evidence leads to a verdict that excludes the right one. A rule that
+    /// fails or panics gives no verdict. An explanation has to be broken by a small change.
+    fn is_moved(&self, judge: Judge<'_>, is_small: bool) -> bool {
+        let check = AssertUnwindSafe(|| judge.check(self.rule, &self.statement));
+        let Ok(Ok(check)) = catch_unwind(check) else { return false };
         match self.verdict {
             Verdict::Reproduced => {
                 [Verdict::Differs, Verdict::DiffersAndExplained].contains(&check.verdict)
@@ -127,32 +120,32 @@ impl Unmoved<'_> {
     }
 }
 
-fn find_numbers(value: &Value, way: &mut Way, found: &mut BTreeSet<Way>) {
+fn find_numbers(value: &Value, path: &mut Way, paths: &mut BTreeSet<Way>) {
     let mut below = |step, value: &Value| {
-        way.push(step);
-        find_numbers(value, way, found);
-        way.pop();
+        path.push(step);
+        find_numbers(value, path, paths);
+        path.pop();
     };
     match value {
         Value::Array(values) => values.iter().for_each(|value| below(None, value)),
         Value::Object(fields) => {
             fields.iter().for_each(|(name, value)| below(Some(name.clone()), value));
         }
-        Value::Number(_) if !found.contains(way) => drop(found.insert(way.clone())),
+        Value::Number(_) if !paths.contains(path) => drop(paths.insert(path.clone())),
         _ => (),
     }
 }
 
-/// Changes all numbers on a way; the field `error` beside a number is its standard error.
-fn change_numbers(value: &mut Value, way: &[Option<String>], error: f64, change: Change) {
-    match (value, way) {
-        (Value::Array(values), [None, way @ ..]) => {
-            values.iter_mut().for_each(|value| change_numbers(value, way, error, change));
+/// Changes all numbers on a path; the field `error` beside a number is its standard error.
+fn change_numbers(value: &mut Value, path: &[Option<String>], error: f64, change: Change) {
+    match (value, path) {
+        (Value::Array(values), [None, path @ ..]) => {
+            values.iter_mut().for_each(|value| change_numbers(value, path, error, change));
         }
-        (Value::Object(fields), [Some(name), way @ ..]) => {
+        (Value::Object(fields), [Some(name), path @ ..]) => {
             let error = fields.get("error").and_then(Value::as_f64).unwrap_or(0.0);
             if let Some(value) = fields.get_mut(name) {
-                change_numbers(value, way, error, change);
+                change_numbers(value, path, error, change);
             }
         }
         (value @ Value::Number(_), []) => {

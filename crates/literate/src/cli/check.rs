@@ -1,6 +1,6 @@
 //! Runs the verb `check`: judges every statement and relation.
 
-use super::common::{RunOptions, outdated, outdated_line, scores, verdict};
+use super::common::{RunOptions, refuse_outdated, scores, verdict};
 use super::terminal::print;
 use crate::claims::{Check, Verdict, blind_to_their_number, never_moved};
 use crate::failure::Failure;
@@ -43,8 +43,8 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
         let is_number = asked.parse().is_ok_and(|n| (1..=published.statements.len()).contains(&n));
         if !is_number && !published.statements.iter().any(|statement| statement.id == *asked) {
             let ids = published.statements.iter().map(|statement| statement.id.as_str());
-            let what = no_such("statement", &one_line(asked, 60), ids);
-            return Err(Failure::input(format!("{what}; `check -v` lists all")));
+            let problem = no_such("statement", &one_line(asked, 60), ids);
+            return Err(Failure::input(format!("{problem}; `check -v` lists all")));
         }
     }
     let (mut checks, mut blind, mut unmoved) =
@@ -66,69 +66,66 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     for ids in [&mut blind, &mut unmoved] {
         ids.retain(|id| checks.iter().any(|check| check.id == *id));
     }
-    print(&text(&checks, [&blind, &unmoved], &args, &numbers))?;
-    let out = args.options.out(paper);
-    if let Some(paths) = outdated(paper, &session, &out)?.filter(|paths| !paths.is_empty()) {
-        return verdict(&checks).and(Err(Failure::check(outdated_line(&out, &paths))));
-    }
-    verdict(&checks)
+    print(&report_text(&checks, [&blind, &unmoved], &args, &numbers))?;
+    verdict(&checks)?;
+    refuse_outdated(paper, &session, &args.options.out(paper)).map(drop)
 }
 
 /// Prints a line for each check that is not reproduced, failed ones first, and the scores; with -v,
 /// or if some were asked for, all that is known of each.
-fn text(
+fn report_text(
     checks: &[Check],
     unfailing: [&[&str]; 2],
     args: &Args,
     numbers: &BTreeMap<String, String>,
 ) -> String {
-    let all = args.verbose || !args.ids.is_empty();
+    let is_complete = args.verbose || !args.ids.is_empty();
     let mut listed: Vec<&Check> =
-        checks.iter().filter(|check| all || check.verdict != Verdict::Reproduced).collect();
+        checks.iter().filter(|check| is_complete || check.verdict != Verdict::Reproduced).collect();
     listed.sort_by_key(|check| !check.fails());
-    let mut out = String::new();
+    let mut lines = String::new();
     for check in listed {
         let sign = if check.fails() { "FAILS" } else { &check.verdict.sign().to_string() };
         let number = numbers.get(&check.id).map_or("", String::as_str);
-        out += &format!("{sign:5} {number:>2} {}: {}", check.id, check.words());
+        lines += &format!("{sign:5} {number:>2} {}: {}", check.id, check.words());
         if let Some(why) = check.difference() {
-            out += &format!(" ({why})");
+            lines += &format!(" ({why})");
         }
-        if all {
+        if is_complete {
             let place = if check.place.is_empty() { "" } else { &format!("{}, ", check.place) };
-            out += &format!(" ({place}{})\n         {}\n", check.basis.words(), check.statement);
+            lines += &format!(" ({place}{})\n         {}\n", check.basis.words(), check.statement);
             let reason = if check.reason.is_empty() { "" } else { &format!(" ({})", check.reason) };
-            for (name, text) in [
+            for (name, words) in [
                 ("printed", check.expected.clone()),
                 ("found", check.found.to_string()),
                 ("tolerance", format!("{}{reason}", check.tolerance)),
                 ("note", check.note.to_string()),
             ] {
-                if !text.is_empty() {
-                    out += &format!("         {name:10} {text}\n");
+                if !words.is_empty() {
+                    lines += &format!("         {name:10} {words}\n");
                 }
             }
         } else {
-            for (side, text) in [("paper", &check.expected), ("here", &check.found.to_string())] {
-                if !["", "–"].contains(&text.as_str()) {
-                    out += &format!("; {side}: {text}");
+            for (side, words) in [("paper", &check.expected), ("here", &check.found.to_string())] {
+                if !["", "–"].contains(&words.as_str()) {
+                    lines += &format!("; {side}: {words}");
                 }
             }
-            out += "\n";
+            lines += "\n";
         }
     }
     for line in scores(checks) {
-        out += &format!("{line}\n");
+        lines += &format!("{line}\n");
     }
-    let what = [
+    let meaning = [
         "reproduced or explained also with another first digit in the printed number",
         "the same verdict with every wrong result that was tried",
     ];
-    for (what, ids) in what.into_iter().zip(unfailing).filter(|(_, ids)| !ids.is_empty()) {
-        out += &format!("{what}: {}\n", ids.join(", "));
+    for (meaning, ids) in meaning.into_iter().zip(unfailing).filter(|(_, ids)| !ids.is_empty()) {
+        lines += &format!("{meaning}: {}\n", ids.join(", "));
     }
-    if !all {
-        out += "`check -v` prints all, `check ID` all of one\n";
+    if !is_complete {
+        lines += "`check -v` prints all, `check ID` all of one\n";
     }
-    out
+    lines
 }

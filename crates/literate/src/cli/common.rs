@@ -1,11 +1,11 @@
 //! Gives the verbs the options, scores and verdict that they share.
 
-use super::terminal::{Threads, shown};
+use super::terminal::{Threads, display_path};
 use crate::build::make_report;
 use crate::claims::{Basis, Check, Kind, Verdict, score};
 use crate::experiments::{AnyExperiment, Profile, Progress, Session, Store};
 use crate::failure::Failure;
-use crate::input::{count, regular_text};
+use crate::input::{count, read_text};
 use crate::paper::Paper;
 use crate::report::{folder, values};
 use std::path::{Path, PathBuf};
@@ -52,7 +52,7 @@ pub(super) fn outdated(
     session: &Session<'_>,
     folder: &Path,
 ) -> Result<Option<Vec<String>>, Failure> {
-    let stale = |one: &&'static dyn AnyExperiment| one.stale(session).transpose();
+    let stale = |one: &&'static dyn AnyExperiment| one.why_stale(session).transpose();
     if profile_in(folder) != Some(session.profile)
         || paper.experiments.iter().find_map(stale).transpose()?.is_some()
     {
@@ -60,34 +60,40 @@ pub(super) fn outdated(
     }
     let (report, _) = make_report(paper, &session.silent(), folder)?;
     let committed = report.into_iter().filter(|(path, _)| !folder::is_generated(path));
-    let differ = folder::compare(folder, &committed.collect())?.1;
-    let paths = differ.iter().filter(|fault| !fault.starts_with("unlisted"));
+    let faults = folder::compare(folder, &committed.collect())?.1;
+    let paths = faults.iter().filter(|fault| !fault.starts_with("unlisted"));
     Ok(Some(paths.filter_map(|fault| Some(fault.split_once("  ")?.1.to_string())).collect()))
 }
 
-/// Says in one line that files of a report are outdated.
-pub(super) fn outdated_line(folder: &Path, paths: &[String]) -> String {
-    let names = match paths {
-        [one, more @ ..] if !more.is_empty() => format!("{one} and {} more", more.len()),
-        _ => paths.concat(),
+/// Fails if files of a report are [`outdated`]. Returns whether that is known.
+pub(super) fn refuse_outdated(
+    paper: &Paper,
+    session: &Session<'_>,
+    folder: &Path,
+) -> Result<bool, Failure> {
+    let Some(paths) = outdated(paper, session, folder)? else { return Ok(false) };
+    let names = match paths.as_slice() {
+        [] => return Ok(true),
+        [path] => path.clone(),
+        [first, others @ ..] => format!("{first} and {} more", others.len()),
     };
-    let what = "not as prose, published numbers and results make it; `paper` writes it anew";
-    format!("{}: {names}: {what}\n", shown(folder))
+    let problem = "not as prose, published numbers and results make it; `paper` writes it anew";
+    Err(Failure::check(format!("{}: {names}: {problem}", display_path(folder))))
 }
 
 /// Returns the profile of the report in a folder, or `None` if there is no report.
 pub(super) fn profile_in(root: &Path) -> Option<Profile> {
-    values::read(&regular_text(&root.join("values.json")).ok()?).ok()?.profile()
+    values::read(&read_text(&root.join("values.json")).ok()?).ok()?.profile()
 }
 
-fn of(checks: &[Check], kind: Kind) -> impl Iterator<Item = &Check> + Clone {
+fn of_kind(checks: &[Check], kind: Kind) -> impl Iterator<Item = &Check> + Clone {
     checks.iter().filter(move |check| check.kind == kind)
 }
 
 /// Returns the scores, a line each: of statements, and of relations where there are any.
 pub(super) fn scores(checks: &[Check]) -> Vec<String> {
     let mut lines = Vec::new();
-    let statements = of(checks, Kind::Statement);
+    let statements = of_kind(checks, Kind::Statement);
     let number = statements.clone().count();
     if number > 0 {
         let mut counts = Vec::new();
@@ -98,24 +104,24 @@ pub(super) fn scores(checks: &[Check]) -> Vec<String> {
         let mut bases = Vec::new();
         for basis in Basis::ALL {
             let counts = score(statements.clone().filter(|check| check.basis == basis));
-            let all: usize = counts.iter().sum();
-            if all > 0 {
-                bases.push(format!("{} of {all} {}", counts[0], basis.words()));
+            let total: usize = counts.iter().sum();
+            if total > 0 {
+                bases.push(format!("{} of {total} {}", counts[0], basis.words()));
             }
         }
         lines.push(format!("reproduced, by what the verdict rests on: {}", bases.join(", ")));
     }
-    let [held, _, broken, open] = score(of(checks, Kind::Relation));
-    let all = held + broken + open;
-    if all > 0 {
-        lines.push(format!("our own checks: {held} of {all} relations between numbers hold"));
+    let [held, _, broken, open] = score(of_kind(checks, Kind::Relation));
+    let total = held + broken + open;
+    if total > 0 {
+        lines.push(format!("our own checks: {held} of {total} relations between numbers hold"));
     }
     lines
 }
 
 pub(super) fn verdict(checks: &[Check]) -> Result<(), Failure> {
     let mut faults = Vec::new();
-    for (is_printed, what) in [
+    for (is_printed, problem) in [
         (true, "statements have no rule or differ without an explanation that holds"),
         (false, "relations between numbers of the report do not hold"),
     ] {
@@ -123,7 +129,7 @@ pub(super) fn verdict(checks: &[Check]) -> Result<(), Failure> {
         let failed = checks.iter().filter(failed).map(|check| check.id.as_str());
         let ids: Vec<&str> = failed.collect();
         if !ids.is_empty() {
-            faults.push(format!("{what}: {}", ids.join(", ")));
+            faults.push(format!("{problem}: {}", ids.join(", ")));
         }
     }
     if faults.is_empty() { Ok(()) } else { Err(Failure::check(faults.join("; "))) }

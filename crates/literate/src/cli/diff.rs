@@ -1,16 +1,15 @@
 //! Runs the verb `diff`: prints how two reports differ.
 
-use super::terminal::{print, shown};
+use super::terminal::{display_path, print};
 use crate::claims::Check;
 use crate::failure::Failure;
-use crate::input::{count, is_control, one_line, regular};
+use crate::input::{count, is_control, one_line, read_file};
 use crate::print::{Style, print as printed};
-use crate::report::document::{spelt, words_and_maths};
+use crate::report::document::{to_spelt_text, words_and_maths};
 use crate::report::folder::{self, SUMS};
 use crate::report::ledger::{self, Ledger};
 use crate::report::values::{self, Digits, Registry, Value};
 use crate::report::{Error, Files};
-use crate::table::number;
 use std::collections::BTreeSet;
 use std::path::Path;
 use std::process::Command;
@@ -35,14 +34,14 @@ pub(super) struct Args {
 
 pub(super) fn run(args: Args) -> Result<(), Failure> {
     let [before, after] = [parts(&args.old)?, parts(&args.new)?];
-    let [old, new] = [&args.old, &args.new].map(|name| shown(Path::new(name)));
+    let [old, new] = [&args.old, &args.new].map(|name| display_path(Path::new(name)));
     let checks = checks(&before.ledger, &after.ledger);
     let numbers = numbers(&before.values, &after.values);
     let counts = [count(checks.len(), "check"), count(numbers.len(), "number")];
-    let all = [checks, numbers, files(&before.files, &after.files)].concat();
+    let differences = [checks, numbers, files(&before.files, &after.files)].concat();
     // A report, and the name of a file, may hold commands of a terminal.
-    let lines = all.iter().map(|line| line.replace(is_control, " ") + "\n");
-    print(&if all.is_empty() {
+    let lines = differences.iter().map(|line| line.replace(is_control, " ") + "\n");
+    print(&if differences.is_empty() {
         format!("{old} and {new}: nothing differs\n")
     } else {
         format!("{} changed\n{}", counts.join(" and "), lines.collect::<String>())
@@ -58,14 +57,14 @@ struct Parts {
 /// Reads a report from a folder or a revision, without the files that are never committed.
 fn parts(name: &str) -> Result<Parts, Failure> {
     let files = if Path::new(name).is_dir() { standing(name)? } else { committed(name)? };
-    let fault = |what: String| Failure::input(format!("{name}: {what}; is it a report?"));
-    let text = |path: &str| {
+    let fault = |problem: String| Failure::input(format!("{name}: {problem}; is it a report?"));
+    let content = |path: &str| {
         let bytes = files.get(path).ok_or_else(|| fault(format!("{path} is missing")))?;
         std::str::from_utf8(bytes).map_err(|error| fault(format!("{path}: {error}")))
     };
-    let wrong = |error: Error| fault(error.to_string());
-    let values = values::read(text("values.json")?).map_err(wrong)?;
-    let ledger = ledger::read(text("ledger.json")?).map_err(wrong)?;
+    let unreadable = |error: Error| fault(error.to_string());
+    let values = values::read(content("values.json")?).map_err(unreadable)?;
+    let ledger = ledger::read(content("ledger.json")?).map_err(unreadable)?;
     Ok(Parts { files, values, ledger })
 }
 
@@ -74,7 +73,7 @@ fn standing(name: &str) -> Result<Files, Failure> {
     let paths = folder::walk(root)?;
     let read = |path: String| {
         let fault = |error| Failure::io(&error, format!("{name}: {path}"), "is it a report?");
-        let bytes = regular(&root.join(&path)).map_err(fault)?;
+        let bytes = read_file(&root.join(&path)).map_err(fault)?;
         Ok((path, bytes))
     };
     paths.into_iter().filter(|path| !folder::is_generated(path)).map(read).collect()
@@ -89,10 +88,10 @@ fn git(arguments: &[&str]) -> Result<Vec<u8>, String> {
 
 fn committed(name: &str) -> Result<Files, Failure> {
     let neither = |reason: String| {
-        let what = "neither a folder nor a revision of git with a report in ./paper here";
+        let problem = "neither a folder nor a revision of git with a report in ./paper here";
         let reason = one_line(&reason, 200);
         let remedy = "give the folder of a report, a tag or a commit";
-        Failure::input(format!("{name}: {what} ({reason}); {remedy}"))
+        Failure::input(format!("{name}: {problem} ({reason}); {remedy}"))
     };
     let git = |arguments: &[&str]| git(arguments).map_err(neither);
     let folder = format!("{name}:./paper");
@@ -122,13 +121,13 @@ fn files(before: &Files, after: &Files) -> Vec<String> {
 /// Says how the rows of a data file changed: prose names few of their numbers.
 fn rows(old: &[u8], new: &[u8]) -> String {
     let [old, new] = [old, new].map(String::from_utf8_lossy);
-    let all = old.lines().count();
-    if all != new.lines().count() {
-        return format!("{all} -> {} lines", new.lines().count());
+    let total = old.lines().count();
+    if total != new.lines().count() {
+        return format!("{total} -> {} lines", new.lines().count());
     }
     let pairs = old.lines().zip(new.lines()).filter(|(old, new)| old != new);
     let first = pairs.clone().map(|(old, new)| format!("the first {old} -> {new}")).next();
-    format!("{} of {all} lines; {}", pairs.count(), first.unwrap_or_default())
+    format!("{} of {total} lines; {}", pairs.count(), first.unwrap_or_default())
 }
 
 /// Lists checks whose verdict, expected number or tolerance changed.
@@ -140,21 +139,21 @@ fn checks(before: &Ledger, after: &Ledger) -> Vec<String> {
         let find = |ledger: &'_ Ledger| ledger.claims.iter().find(|check| check.id == *id).cloned();
         let (old, new) = (find(before), find(after));
         let words = [&old, &new].map(|check| check.as_ref().map(Check::words));
-        let moved = words[0] != words[1];
-        let mut also = String::new();
+        let has_moved = words[0] != words[1];
+        let mut details = String::new();
         if let (Some(old), Some(new)) = (&old, &new) {
             for (name, [old, new]) in [
                 ("expected", [old, new].map(|check| check.expected.clone())),
                 ("found", [old, new].map(|check| check.found.to_string())),
                 ("tolerance", [old, new].map(|check| check.tolerance.to_string())),
             ] {
-                if old != new && (moved || name != "found") {
-                    also += &format!("; {name}: {old} -> {new}");
+                if old != new && (has_moved || name != "found") {
+                    details += &format!("; {name}: {old} -> {new}");
                 }
             }
         }
-        if moved || !also.is_empty() {
-            lines.push(fate(id, words) + &also);
+        if has_moved || !details.is_empty() {
+            lines.push(fate(id, words) + &details);
         }
     }
     lines
@@ -166,10 +165,10 @@ fn numbers(before: &Registry, after: &Registry) -> Vec<String> {
     let ids: BTreeSet<&str> = before.iter().chain(after.iter()).map(|v| v.id.as_str()).collect();
     let mut changes = Vec::new();
     for id in ids {
-        let both = [before.get(id), after.get(id)];
-        let [old, new] = both.map(|value| value.map(|value| (&value.number, &value.unit)));
+        let values = [before.get(id), after.get(id)];
+        let [old, new] = values.map(|value| value.map(|value| (&value.number, &value.unit)));
         if old != new {
-            changes.push(change(id, both));
+            changes.push(change(id, values));
         }
     }
     changes.sort_by(|(a, _), (b, _)| b.total_cmp(a));
@@ -178,15 +177,19 @@ fn numbers(before: &Registry, after: &Registry) -> Vec<String> {
 
 /// Returns by how many standard errors a number changed (infinitely many if it is no longer a
 /// number, below 0 if only one report has it), and its line.
-fn change(id: &str, both: [Option<&Value>; 2]) -> (f64, String) {
-    let [old, new] = both.map(|value| value.map(Value::plain));
+fn change(id: &str, values: [Option<&Value>; 2]) -> (f64, String) {
+    let [old, new] = values.map(|value| value.map(Value::to_plain_text));
     // In full where their digits do not show the difference.
     let style = Style { digits: (old == new).then_some(Digits::Full), ..Style::default() };
-    let shown = |value: &Value| spelt(&words_and_maths(&printed(&value.number, style).plain()));
-    let [old, new] = both.map(|value| value.map(shown));
+    let digits = |value: &Value| {
+        to_spelt_text(&words_and_maths(&printed(&value.number, style).to_plain_text()))
+    };
+    let [old, new] = values.map(|value| value.map(digits));
     let mut line = fate(id, [old.as_deref(), new.as_deref()]);
-    let [Some(old), Some(new)] = both else { return (-1.0, line) };
-    let Some((before, after)) = number(old).zip(number(new)) else { return (f64::INFINITY, line) };
+    let [Some(old), Some(new)] = values else { return (-1.0, line) };
+    let Some((before, after)) = old.as_f64().zip(new.as_f64()) else {
+        return (f64::INFINITY, line);
+    };
     let difference = after - before;
     line += &format!("; Δ {}", signed(difference));
     // Runs with the same seed are correlated, and then this overestimates the error.
@@ -201,7 +204,7 @@ fn change(id: &str, both: [Option<&Value>; 2]) -> (f64, String) {
 
 fn signed(value: f64) -> String {
     let sign = if value > 0.0 { "+" } else { "" };
-    format!("{sign}{}", Value::real("", value, 3).plain())
+    format!("{sign}{}", Value::real("", value, 3).to_plain_text())
 }
 
 /// Says how something changed: `x: old -> new`, `x: new, new`, `x: gone, was old`.

@@ -3,12 +3,12 @@
 use super::terminal::print;
 use crate::experiments::{Command, Profile, Store};
 use crate::failure::Failure;
-use crate::input::{is_control, one_line, regular_text};
+use crate::input::{is_control, one_line, read_text};
 use crate::paper::Paper;
 use crate::report::card::{Card, Cards};
-use crate::report::document::{Inline, spelt};
+use crate::report::document::{Inline, to_spelt_text};
 use crate::report::{Error, ledger, values};
-use crate::table::{DataFile, table_of};
+use crate::table::{DataFile, table_name};
 use std::path::{Path, PathBuf};
 
 /// Say where a number, a figure, an equation or a statement of the report comes from
@@ -40,47 +40,50 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     let folder = args.paper.unwrap_or_else(|| paper.project.place("paper"));
     let values = values::read(&read(&folder, "values.json")?).map_err(fault)?;
     let ledger = ledger::read(&read(&folder, "ledger.json")?).map_err(fault)?;
-    let (Paper { edition, project, experiments, .. }, shared) = (paper, Default::default());
-    let cards = Cards { values: &values, ledger: &ledger, edition, project, experiments, shared };
+    let Paper { edition, project, experiments, .. } = paper;
+    let cards = Cards { values: &values, ledger: &ledger, edition, project, experiments };
     let mut rows = String::new();
-    let mut found = if args.ids.is_empty() { cards.ids() } else { Vec::new() };
+    let mut ids = if args.ids.is_empty() { cards.ids() } else { Vec::new() };
     for asked in &args.ids {
-        let ids = cards.find(asked);
-        if ids.is_empty() {
-            if let Some(text) = rows_of(asked, &folder) {
-                rows += &text;
+        let matching = cards.find(asked);
+        if matching.is_empty() {
+            if let Some(written) = rows_of(asked, &folder) {
+                rows += &written;
                 continue;
             }
             let asked = one_line(asked, 60);
-            let what = format!("there is no {asked:?}, and no id contains it");
-            return Err(Failure::input(format!("explain: {what}; give no id to list all")));
+            let problem = format!("there is no {asked:?}, and no id contains it");
+            return Err(Failure::input(format!("explain: {problem}; give no id to list all")));
         }
-        found.extend(ids);
+        ids.extend(matching);
     }
-    let in_short = args.ids.len() < 2 && found.len() > 1;
+    let in_short = args.ids.len() < 2 && ids.len() > 1;
     let results = args.results.unwrap_or_else(|| paper.project.place("target/results"));
     let (store, profile) = (Store::open(&results), values.profile().unwrap_or(Profile::Full));
     for name in experiments.iter().map(|experiment| experiment.name()) {
-        let mut ids = found.iter().chain(&args.ids);
-        if !in_short && ids.any(|id| id.trim_start_matches("v.").split('.').next() == Some(name)) {
+        let mut explained = ids.iter().chain(&args.ids);
+        if !in_short
+            && explained.any(|id| id.trim_start_matches("v.").split('.').next() == Some(name))
+        {
             let said = Command::said(name, profile, &store).unwrap_or_default();
             rows.extend(said.lines().map(|line| format!("{name} said: {}\n", clean(line))));
         }
     }
-    let found: Vec<Card> = found.iter().filter_map(|id| cards.get(id)).collect();
-    let text = |card: &Card| if in_short { line(card) } else { shown(card) };
-    let found = found.iter().map(text).collect::<Vec<_>>().join(if in_short { "" } else { "\n" });
-    print(&(found + &rows))
+    let cards: Vec<Card> = ids.iter().filter_map(|id| cards.get(id)).collect();
+    let written = |card: &Card| if in_short { card_line(card) } else { card_text(card) };
+    let cards =
+        cards.iter().map(written).collect::<Vec<_>>().join(if in_short { "" } else { "\n" });
+    print(&(cards + &rows))
 }
 
-/// Returns the rows that an address means in a data file, below the names and units of its columns:
-/// prose names few of them. None if there is no such file or column.
+/// Returns the rows of a data file that an address names, below the names and units of the columns,
+/// or `None` if there is no such file or column: prose names few cells of most tables.
 fn rows_of(asked: &str, folder: &Path) -> Option<String> {
     let address = asked.trim().trim_start_matches("v.").replace(['"', ' '], "");
-    let path = format!("data/{}", DataFile::name_of(table_of(&address)?));
-    let text = regular_text(&folder.join(&path)).ok()?;
+    let path = format!("data/{}", DataFile::file_name(table_name(&address)?));
+    let csv = read_text(&folder.join(&path)).ok()?;
     let (table, column) = address.rsplit_once('.')?;
-    let (head, rows) = text.split_once('\n')?;
+    let (head, rows) = csv.split_once('\n')?;
     head.split(',').find(|name| name.split(" (").next() == Some(column))?;
     let keys = table.trim_end_matches(']').split_once('[').map_or("", |(_, keys)| keys);
     let given: Vec<&str> = keys.split(',').filter_map(|key| Some(key.split_once('=')?.1)).collect();
@@ -92,40 +95,40 @@ fn rows_of(asked: &str, folder: &Path) -> Option<String> {
 
 fn read(paper: &Path, name: &str) -> Result<String, Failure> {
     let place = || format!("--paper: {}", paper.join(name).display());
-    let text = regular_text(&paper.join(name));
-    text.map_err(|e| Failure::io(&e, place(), "give the folder of a report"))
+    let content = read_text(&paper.join(name));
+    content.map_err(|e| Failure::io(&e, place(), "give the folder of a report"))
 }
 
 fn fault(error: Error) -> Failure {
     Failure::input(format!("--paper: {error}; make the report anew with `paper`"))
 }
 
-fn line(card: &Card) -> String {
-    format!("{:28} {}\n", clean(&card.id), words(&card.title))
+fn card_line(card: &Card) -> String {
+    format!("{:28} {}\n", clean(&card.id), spelt_line(&card.title))
 }
 
-fn shown(card: &Card) -> String {
-    let mut out = format!("{}: {}\n", clean(&card.id), words(&card.title));
+fn card_text(card: &Card) -> String {
+    let mut lines = format!("{}: {}\n", clean(&card.id), spelt_line(&card.title));
     if !card.lead.is_empty() {
-        out += &format!("  {}\n", clean(&card.lead));
+        lines += &format!("  {}\n", clean(&card.lead));
     }
-    for (name, text) in card.rows.iter().filter(|(name, _)| !["id", "ledger"].contains(name)) {
+    for (name, words) in card.rows.iter().filter(|(name, _)| !["id", "ledger"].contains(name)) {
         // A link to a line of the source shows its item, and in brackets its file and line.
-        let (text, place) = match text.as_slice() {
-            [Inline::Link { to, shown }] if to.starts_with("../") => {
-                let place = to.trim_start_matches("../").replace("#L", ":");
-                (shown.get(..1).unwrap_or_default(), format!(" ({place})"))
+        let (words, source_place) = match words.as_slice() {
+            [Inline::Link { to, words: link }] if to.starts_with("../") => {
+                let source_place = to.trim_start_matches("../").replace("#L", ":");
+                (link.get(..1).unwrap_or_default(), format!(" ({source_place})"))
             }
             all => (all, String::new()),
         };
-        out += &format!("  {name:15} {}{place}\n", words(text));
+        lines += &format!("  {name:15} {}{source_place}\n", spelt_line(words));
     }
-    out
+    lines
 }
 
 /// Words of a report, without commands of a terminal.
-fn words(text: &[Inline]) -> String {
-    clean(&spelt(text))
+fn spelt_line(inlines: &[Inline]) -> String {
+    clean(&to_spelt_text(inlines))
 }
 
 fn clean(text: &str) -> String {

@@ -12,7 +12,7 @@ mod verify;
 
 use crate::experiments::be_quiet;
 use crate::failure::Failure;
-use crate::input::plain;
+use crate::input::in_plain_words;
 use crate::paper::Paper;
 use clap::error::ErrorKind;
 use clap::{Command, CommandFactory, FromArgMatches, Parser, Subcommand};
@@ -83,7 +83,7 @@ impl Paper {
         let command: Command = Cli::<V>::command().name(name).bin_name(name).version(version);
         let command = command.about(self.edition.title).after_help(EXIT_CODES);
         let parsed = command.try_get_matches_from(line);
-        let result = match parsed.and_then(|all| Cli::<V>::from_arg_matches(&all)) {
+        let result = match parsed.and_then(|matches| Cli::<V>::from_arg_matches(&matches)) {
             Ok(Cli { verb, quiet }) => {
                 if quiet {
                     be_quiet();
@@ -120,11 +120,11 @@ fn usage(error: &clap::Error) -> Result<(), Failure> {
         terminal::written(error.print())?;
         return Err(Failure { code: 2, message: String::new() });
     }
-    let text = plain(&error.to_string());
+    let message = in_plain_words(&error.to_string());
     // No verb takes a value that looks like an option.
     let helps = |line: &&str| !line.is_empty() && !line.starts_with("tip: to pass '");
-    let is_what = |line: &&str| !line.starts_with("Usage: ") && !line.starts_with("For more ");
-    let lines = text.lines().map(str::trim).filter(helps).take_while(is_what);
+    let is_problem = |line: &&str| !line.starts_with("Usage: ") && !line.starts_with("For more ");
+    let lines = message.lines().map(str::trim).filter(helps).take_while(is_problem);
     let line = lines.chain(["--help explains"]).collect::<Vec<_>>().join("; ").replace(":; ", ": ");
     Err(Failure::input(line.strip_prefix("error: ").unwrap_or(&line)))
 }

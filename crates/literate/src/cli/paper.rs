@@ -1,7 +1,7 @@
 //! Runs the verb `paper`: makes the report, or says what would be run.
 
-use super::common::{RunOptions, outdated, outdated_line, profile_in, scores, verdict};
-use super::terminal::{print, shown};
+use super::common::{RunOptions, outdated, profile_in, refuse_outdated, scores, verdict};
+use super::terminal::{display_path, print};
 use crate::build::make_report;
 use crate::experiments::{AnyExperiment, Profile, Session};
 use crate::failure::Failure;
@@ -53,7 +53,8 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     let began = Instant::now();
     let Args { options, force, .. } = args;
     let mut out = args.out.clone().unwrap_or_else(|| options.out(paper));
-    let find = |text: &String| paper.find_figure(text).map_err(|error| error.of("--figure"));
+    let find =
+        |name: &String| paper.find_figure(name).map_err(|error| error.in_context("--figure"));
     let figures = args.figure.iter().map(find).collect::<Result<Vec<&FigureSpec>, Failure>>()?;
     let is_whole = figures.is_empty();
     let mut needs = paper.experiments.clone();
@@ -72,9 +73,9 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     if apart {
         out = paper.project.place("target/figures");
     }
-    let option = |error: folder::Error| Failure::from(error).of("--out");
+    let at_option = |error: folder::Error| Failure::from(error).in_context("--out");
     if !force {
-        folder::refuse(&out, &Files::new(), is_whole).map_err(option)?;
+        folder::refuse(&out, &Files::new(), is_whole).map_err(at_option)?;
     }
     forget(&args.rerun, paper, &session)?;
     let (report, checks) = options.threads.run(|| {
@@ -88,9 +89,10 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
         report.retain(|path, _| !folder::is_generated(path));
         Ok((report, Vec::new()))
     })?;
-    folder::write(&out, &report, force).map_err(option)?;
+    folder::write(&out, &report, force).map_err(at_option)?;
     let number = count(report.len(), "file");
-    let mut line = format!("{}: {number} in {:.1} s", shown(&out), began.elapsed().as_secs_f64());
+    let mut line =
+        format!("{}: {number} in {:.1} s", display_path(&out), began.elapsed().as_secs_f64());
     if is_whole {
         let pages: Vec<&str> = paper.edition.documents.iter().map(|one| one.page).collect();
         line += &format!(": {}", pages.join(", "));
@@ -101,19 +103,19 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     let lines: Vec<String> = [line].into_iter().chain(scores(&checks)).collect();
     // Printed also if a check fails.
     let printed = print(&(lines.join("\n") + "\n"));
-    let more = |failure: Failure| {
+    let with_advice = |failure: Failure| {
         let message = format!("{}; `check` says more", failure.message);
         Failure { message, ..failure }
     };
-    verdict(&checks).map_err(more).and(printed)
+    verdict(&checks).map_err(with_advice).and(printed)
 }
 
 fn forget(names: &[String], paper: &Paper, session: &Session<'_>) -> Result<(), Failure> {
     let known: Vec<&str> = paper.experiments.iter().map(|experiment| experiment.name()).collect();
     for name in names {
         if name != "all" && !known.contains(&name.as_str()) {
-            let what = no_such("experiment", &one_line(name, 60), known.into_iter());
-            return Err(Failure::input(format!("--rerun: {what}")));
+            let problem = no_such("experiment", &one_line(name, 60), known.into_iter());
+            return Err(Failure::input(format!("--rerun: {problem}")));
         }
     }
     for experiment in &paper.experiments {
@@ -127,10 +129,10 @@ fn forget(names: &[String], paper: &Paper, session: &Session<'_>) -> Result<(), 
 /// Refuses to write over the full report, or a figure among those of another profile.
 fn refuse_over_other(profile: Profile, out: &Path, is_whole: bool) -> Result<(), Failure> {
     match profile_in(out) {
-        Some(there) if there != profile && (!is_whole || there == Profile::Full) => {
-            let (place, name) = (out.display(), there.name());
-            let what = format!("--out: {place} holds a report of the {name} profile");
-            Err(Failure::input(format!("{what}; give another folder")))
+        Some(other) if other != profile && (!is_whole || other == Profile::Full) => {
+            let (place, name) = (out.display(), other.name());
+            let problem = format!("--out: {place} holds a report of the {name} profile");
+            Err(Failure::input(format!("{problem}; give another folder")))
         }
         _ => Ok(()),
     }
@@ -158,14 +160,11 @@ fn dry_run(
     needs: &[&'static dyn AnyExperiment],
     out: &Path,
 ) -> Result<(), Failure> {
-    let stale = needs.iter().map(|need| need.stale(session)).collect::<Result<Vec<_>, _>>()?;
+    let stale = needs.iter().map(|need| need.why_stale(session)).collect::<Result<Vec<_>, _>>()?;
     let stale: Vec<String> = stale.into_iter().flatten().map(|line| line + "\n").collect();
     print(&stale.concat())?;
     match stale.len() {
-        0 => match outdated(paper, session, out)? {
-            Some(paths) if !paths.is_empty() => Err(Failure::check(outdated_line(out, &paths))),
-            _ => Ok(()),
-        },
+        0 => refuse_outdated(paper, session, out).map(drop),
         stale => Err(Failure::check(format!("{} to be run", count(stale, "experiment")))),
     }
 }

@@ -1,7 +1,7 @@
 //! Runs the verb `run`: the experiments, or this machine's share of their units of work.
 
 use super::common::RunOptions;
-use super::terminal::{print, shown};
+use super::terminal::{display_path, print};
 use crate::experiments::{AnyExperiment, Error, Session};
 use crate::failure::Failure;
 use crate::input::count;
@@ -26,9 +26,10 @@ pub(super) struct Args {
     options: RunOptions,
 }
 
-fn share(text: &str) -> Result<(usize, usize), String> {
-    let read = |text: &str| text.parse::<usize>().ok().filter(|number| (1..=MOST).contains(number));
-    match text.split_once('/').map(|(i, n)| (read(i), read(n))) {
+fn share(shard: &str) -> Result<(usize, usize), String> {
+    let read =
+        |shard: &str| shard.parse::<usize>().ok().filter(|number| (1..=MOST).contains(number));
+    match shard.split_once('/').map(|(i, n)| (read(i), read(n))) {
         Some((Some(i), Some(n))) if i <= n => Ok((i, n)),
         _ => Err(format!("a shard is i/N with 1 <= i <= N <= {MOST}, like 2/3")),
     }
@@ -39,17 +40,17 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     let session = options.session(paper)?;
     let saved: Vec<&'static dyn AnyExperiment> =
         paper.experiments.iter().copied().filter(|one| one.is_saved()).collect();
-    let done = options.threads.run(|| match shard {
+    let outcome = options.threads.run(|| match shard {
         Some((i, of)) => {
-            let [run, there] = run_shard(&saved, (i, of), &session)?;
-            Ok(format!("shard {i}/{of}: {} run, {there} already saved", count(run, "unit")))
+            let [run, saved] = run_shard(&saved, (i, of), &session)?;
+            Ok(format!("shard {i}/{of}: {} run, {saved} already saved", count(run, "unit")))
         }
         None => {
             paper.results(&saved, &session)?;
             Ok(format!("results of {}", count(saved.len(), "experiment")))
         }
     })?;
-    print(&format!("{}: {done}\n", shown(&options.results(paper))))
+    print(&format!("{}: {outcome}\n", display_path(&options.results(paper))))
 }
 
 /// How many shards there can be at most; more would have nothing to do.
@@ -58,24 +59,26 @@ const MOST: usize = 100_000;
 /// Runs each N-th unit that is not in the store. Returns the numbers of those run and those there.
 fn run_shard(
     experiments: &[&'static dyn AnyExperiment],
-    (shard, of): (usize, usize),
+    (shard, shards): (usize, usize),
     session: &Session<'_>,
 ) -> Result<[usize; 2], Error> {
-    let mut shards = (1..=of).cycle();
+    let mut turns = (1..=shards).cycle();
     let (mut shares, mut open) = (Vec::new(), Vec::new());
     for experiment in experiments {
         let mut units = experiment.units(session.profile);
-        units.retain(|_| shards.next() == Some(shard));
+        units.retain(|_| turns.next() == Some(shard));
         let identity = experiment.identity(session)?;
-        open.extend(experiment.missing(units.clone(), &identity, &session.store));
+        open.extend(experiment.units_to_run(units.clone(), &identity, &session.store));
         shares.push((experiment, units, identity));
     }
-    session.announce(&format!("shard {shard}/{of}: {}", count(open.len(), "unit")), &open)?;
-    let [mut run, mut all] = [0, 0];
+    session.announce(&format!("shard {shard}/{shards}: {}", count(open.len(), "unit")), &open)?;
+    let [mut run, mut total] = [0, 0];
     for (experiment, units, identity) in shares.iter().filter(|(_, units, _)| !units.is_empty()) {
         session.progress.check()?;
-        all += units.len();
-        run += experiment.run_units(units, identity, session)?;
+        total += units.len();
+        if session.store.fresh(identity).is_err() {
+            run += experiment.run_units(units, identity, session)?;
+        }
     }
-    Ok([run, all - run])
+    Ok([run, total - run])
 }

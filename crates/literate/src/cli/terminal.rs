@@ -23,7 +23,7 @@ pub(super) fn report_panic(fault: &std::panic::PanicHookInfo<'_>) {
         return;
     }
     let words = fault.payload_as_str().unwrap_or("no words");
-    let place = fault.location().map_or_else(String::new, |at| format!(" at {at}"));
+    let place = fault.location().map_or_else(String::new, |location| format!(" at {location}"));
     let line = format!(
         "internal error{place}: {words}; mend it if that file is your paper's, else please report \
          it; if saved results were edited, remove them"
@@ -31,7 +31,7 @@ pub(super) fn report_panic(fault: &std::panic::PanicHookInfo<'_>) {
     warn(&one_line(&line, 4000));
 }
 
-pub(super) fn shown(path: &Path) -> String {
+pub(super) fn display_path(path: &Path) -> String {
     one_line(&path.display().to_string(), 500)
 }
 
@@ -46,8 +46,8 @@ pub fn written(result: io::Result<()>) -> Result<(), Failure> {
 }
 
 pub fn print(text: &str) -> Result<(), Failure> {
-    let mut out = io::stdout().lock();
-    written(out.write_all(text.as_bytes()).and_then(|()| out.flush()))
+    let mut output = io::stdout().lock();
+    written(output.write_all(text.as_bytes()).and_then(|()| output.flush()))
 }
 
 /// Makes Ctrl-C, SIGTERM and SIGHUP end the programs that this one runs, and it within a second
@@ -86,8 +86,8 @@ pub struct Threads {
     asked: Option<usize>,
 }
 
-fn threads(text: &str) -> Result<usize, String> {
-    let threads = text.parse().ok().filter(|threads| (1..=MOST).contains(threads));
+fn threads(number: &str) -> Result<usize, String> {
+    let threads = number.parse().ok().filter(|threads| (1..=MOST).contains(threads));
     threads.ok_or_else(|| format!("give 1 to {MOST}"))
 }
 

@@ -1,7 +1,7 @@
 //! Runs the verb `verify`: compares a report with its list, or with what the source makes.
 
-use super::common::{outdated, outdated_line, profile_in};
-use super::terminal::{Threads, print, shown};
+use super::common::{profile_in, refuse_outdated};
+use super::terminal::{Threads, display_path, print};
 use crate::build::make_report;
 use crate::experiments::{Progress, Store};
 use crate::failure::Failure;
@@ -45,22 +45,22 @@ pub(super) struct Args {
 pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     let Args { folder, rerun, results, templates, threads } = args;
     let folder = folder.unwrap_or_else(|| paper.project.place("paper"));
-    let place = shown(&folder);
+    let place = display_path(&folder);
     let (files, mut faults) = folder::verify(&folder)?;
     if faults.is_empty() {
         print(&format!("{place}: {files} files, all as {} lists them\n", folder::SUMS))?;
     }
     if rerun {
-        let none = || Failure::input(format!("{place}: values.json names no profile"));
-        let profile = profile_in(&folder).ok_or_else(none)?;
+        let no_profile = || Failure::input(format!("{place}: values.json names no profile"));
+        let profile = profile_in(&folder).ok_or_else(no_profile)?;
         let store = results.as_deref().map_or(Store::nowhere(), Store::open);
         let session = paper.session(templates.as_deref(), profile, store, Progress::on_stderr())?;
-        let made = threads.run(|| make_report(paper, &session, &folder))?.0;
-        let (files, differences) = folder::compare(&folder, &made)?;
+        let report = threads.run(|| make_report(paper, &session, &folder))?.0;
+        let (files, differences) = folder::compare(&folder, &report)?;
         if differences.is_empty() {
             let name = profile.name();
-            let fine = format!("made again with the {name} profile, the same bytes");
-            print(&format!("{place}: {files} files {fine}\n"))?;
+            let outcome = format!("made again with the {name} profile, the same bytes");
+            print(&format!("{place}: {files} files {outcome}\n"))?;
         }
         faults.extend(differences.into_iter().map(|fault| format!("rerun: {fault}")));
     }
@@ -88,16 +88,14 @@ fn compare_with_prose(
 ) -> Result<(), Failure> {
     let Some(profile) = profile_in(folder) else { return Ok(()) };
     let session = paper.session(templates, profile, Store::open(results), Progress::on_stderr())?;
-    match outdated(paper, &session, folder)? {
-        Some(paths) if paths.is_empty() => Ok(()),
-        Some(paths) => Err(Failure::check(outdated_line(folder, &paths))),
-        None if results.is_dir() => {
-            let what = "saved results are stale or missing, so prose was not compared";
-            Err(Failure::check(format!("{}: {what}; `paper` runs them", shown(folder))))
-        }
-        None => {
-            let what = "not compared with the prose, since there are no saved results";
-            print(&format!("{}: {what}; --rerun runs them\n", shown(folder)))
-        }
+    if refuse_outdated(paper, &session, folder)? {
+        return Ok(());
     }
+    let place = display_path(folder);
+    if results.is_dir() {
+        let problem = "saved results are stale or missing, so prose was not compared";
+        return Err(Failure::check(format!("{place}: {problem}; `paper` runs them")));
+    }
+    let problem = "not compared with the prose, since there are no saved results";
+    print(&format!("{place}: {problem}; --rerun runs them\n"))
 }

@@ -6,7 +6,7 @@
 
 use super::printed::{PrintedTable, tables_by_name};
 use super::store::{Identity, Store};
-use super::{AnyExperiment, Error, Found, Profile, Session, process, progress};
+use super::{AnyExperiment, AnyResult, Error, Profile, Session, process, progress};
 use crate::input::{self, sha256};
 use crate::project::Project;
 use crate::table::Table;
@@ -57,29 +57,29 @@ impl Command {
         Command { name, line, parameters, reads: none, writes: none, env: none, versions: none }
     }
 
-    /// Returns what a command wrote to standard error when its result was saved; none if this is
-    /// no command.
+    /// Returns what a command wrote to standard error when its result was saved, or `None` if there
+    /// is no such result.
     pub(crate) fn said(name: &str, profile: Profile, store: &Store) -> Option<String> {
-        Some(store.last::<Output>(name, profile)?.said)
+        Some(store.load_last::<Output>(name, profile)?.said)
     }
 
-    fn fault(&self, what: String) -> Error {
-        Error::input(self.name, format!("`{}`", self.line), what)
+    fn fault(&self, remedy: String) -> Error {
+        Error::input(self.name, format!("`{}`", self.line), remedy)
     }
 
     /// Lists the files and folders that it names, from the folder `top`.
     fn inputs(&self, top: &Path) -> Result<Vec<String>, String> {
         let mut inputs = Vec::new();
-        for (at, word) in words(self.line)?.iter().enumerate() {
-            let value = word.split_once('=').map_or(word.as_str(), |(_, value)| value);
-            let is_option = value.starts_with('-') || value.contains("://");
-            let is_program_of_path = at == 0 && !word.contains('/');
-            let is_written = self.writes.contains(&value);
-            if is_option || is_program_of_path || is_written || ["", "."].contains(&value) {
+        for (number, word) in words(self.line)?.iter().enumerate() {
+            let path = word.split_once('=').map_or(word.as_str(), |(_, path)| path);
+            let is_option = path.starts_with('-') || path.contains("://");
+            let is_program_of_path = number == 0 && !word.contains('/');
+            let is_written = self.writes.contains(&path);
+            if is_option || is_program_of_path || is_written || ["", "."].contains(&path) {
                 continue;
             }
-            if top.join(value).exists() || looks_like_a_file(value) {
-                inputs.push(value.to_string());
+            if top.join(path).exists() || looks_like_a_file(path) {
+                inputs.push(path.to_string());
             }
         }
         inputs.extend(self.reads.iter().map(ToString::to_string));
@@ -88,7 +88,7 @@ impl Command {
             if input.split('/').any(|part| part == "..") {
                 return Err(format!("{input} lies outside the project; copy it into the project"));
             }
-            input::files_in(top, input).map_err(|error| {
+            input::list_files(top, input).map_err(|error| {
                 format!("{error}; restore it, or list it in `writes` if the command makes it")
             })?;
         }
@@ -97,33 +97,33 @@ impl Command {
 
     /// Returns name and hash of all on which its result depends, but for its parameters.
     fn hashes(&self, top: &Path) -> Result<BTreeMap<String, String>, String> {
-        let mut all = BTreeMap::new();
+        let mut hashes = BTreeMap::new();
         for input in self.inputs(top)? {
-            all.extend(input::hashes(top, &input).map_err(|error| error.to_string())?);
+            hashes.extend(input::hash_files(top, &input).map_err(|error| error.to_string())?);
         }
         let program = &words(self.line)?[0];
         if !program.contains('/') {
             let path = in_path(program)?;
             let bytes = std::fs::read(&path).map_err(|e| format!("{}: {e}", path.display()))?;
-            all.insert(format!("{program} in PATH"), sha256(bytes));
+            hashes.insert(format!("{program} in PATH"), sha256(bytes));
         }
         for name in self.env {
             let hash = std::env::var_os(name).map(|value| sha256(value.as_encoded_bytes()));
-            all.insert(format!("{name} in the environment"), hash.unwrap_or_default());
+            hashes.insert(format!("{name} in the environment"), hash.unwrap_or_default());
         }
         // Held, so that each of them runs once.
-        let mut known = VERSIONS.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut versions = VERSIONS.lock().unwrap_or_else(PoisonError::into_inner);
         for line in self.versions {
             let key = format!("{line} {:?}", self.env);
-            if !known.contains_key(&key) {
-                let failed = |what| format!("`{line}`, which `versions` lists: {what}");
+            if !versions.contains_key(&key) {
+                let failed = |problem| format!("`{line}`, which `versions` lists: {problem}");
                 let process = self.process(line, top, top);
-                let ended = process.and_then(|mut it| process::run(&mut it, "".into(), |_| true));
-                known.insert(key.clone(), sha256(ended.map_err(failed)?.0));
+                let output = process.and_then(|mut it| process::run(&mut it, "".into(), |_| true));
+                versions.insert(key.clone(), sha256(output.map_err(failed)?.0));
             }
-            all.insert(format!("the output of `{line}`"), known[&key].clone());
+            hashes.insert(format!("the output of `{line}`"), versions[&key].clone());
         }
-        Ok(all)
+        Ok(hashes)
     }
 
     /// Copies its inputs into a folder.
@@ -132,7 +132,7 @@ impl Command {
             if top.join(&input).is_dir() {
                 std::fs::create_dir_all(folder.join(&input))?;
             }
-            for path in input::files_in(top, &input)? {
+            for path in input::list_files(top, &input)? {
                 let copy = folder.join(&path);
                 // Absolute paths, and those that two inputs have, are already there.
                 if !copy.exists() {
@@ -166,9 +166,9 @@ impl Command {
         self.copy_to(folder.path(), top).map_err(|error| error.to_string())?;
         let mut process = self.process(self.line, folder.path(), top)?;
         let parameters = (self.parameters)(session.profile);
-        let given = json!({"profile": session.profile, "parameters": parameters});
+        let input = json!({"profile": session.profile, "parameters": parameters});
         let stage = session.progress.stage(self.name, progress::PARTS);
-        let hear = |line: &str| {
+        let on_error_line = |line: &str| {
             let share = progress::share_in(line);
             match share {
                 Some(share) => stage.reach(share),
@@ -176,7 +176,7 @@ impl Command {
             }
             share.is_none()
         };
-        let (printed, said) = process::run(&mut process, format!("{given}\n"), hear)?;
+        let (printed, errors) = process::run(&mut process, format!("{input}\n"), on_error_line)?;
         let (tables, mut files) = (self.tables_in(&printed)?, BTreeMap::new());
         for path in self.writes {
             let bytes = std::fs::read(folder.path().join(path)).map_err(|error| {
@@ -184,11 +184,11 @@ impl Command {
             })?;
             files.insert(path.to_string(), bytes);
         }
-        Ok(Output { tables, files, said })
+        Ok(Output { tables, files, said: errors })
     }
 
-    pub(super) fn file(&self, found: &Found, path: &str) -> Option<Vec<u8>> {
-        found.downcast_ref::<Output>()?.files.get(path).cloned()
+    pub(super) fn file(&self, result: &AnyResult, path: &str) -> Option<Vec<u8>> {
+        result.downcast_ref::<Output>()?.files.get(path).cloned()
     }
 
     /// Reads the tables that it printed; a command that writes files need not print any.
@@ -198,12 +198,12 @@ impl Command {
         }
         let form = "the manual of literate, *A new paper*, has the form";
         let mut reader = serde_json::Deserializer::from_slice(printed);
-        let tables = tables_by_name(&mut reader).and_then(|found| reader.end().map(|()| found));
+        let tables = tables_by_name(&mut reader).and_then(|tables| reader.end().map(|()| tables));
         let tables = tables.map_err(|error| {
             let printed = String::from_utf8_lossy(printed);
-            let first: Vec<&str> = printed.lines().take(5).collect();
+            let first_lines: Vec<&str> = printed.lines().take(5).collect();
             let problem = format!("printed no tables in JSON, which has null for NaN: {error}");
-            format!("{problem}; {form}; it printed:\n{}", first.join("\n"))
+            format!("{problem}; {form}; it printed:\n{}", first_lines.join("\n"))
         })?;
         for (name, table) in &tables {
             if let Some(fault) = table.fault(self.name, name, self.line) {
@@ -252,49 +252,49 @@ impl AnyExperiment for Command {
         self.name
     }
 
-    fn check(&self, project: &Project) -> Result<(), Error> {
-        self.inputs(&project.folder()).map(drop).map_err(|what| self.fault(what))
+    fn check_files(&self, project: &Project) -> Result<(), Error> {
+        self.inputs(&project.folder()).map(drop).map_err(|problem| self.fault(problem))
     }
 
     fn made_of(&self, session: &Session<'_>) -> Result<BTreeMap<String, String>, Error> {
         let hashes = self.hashes(&session.project.folder());
         session.progress.check()?;
-        hashes.map_err(|what| self.fault(what))
+        hashes.map_err(|problem| self.fault(problem))
     }
 
     fn parameters(&self, profile: Profile) -> Result<Json, Error> {
-        let mut all = json!({"command": self.line, "parameters": (self.parameters)(profile)});
+        let mut json = json!({"command": self.line, "parameters": (self.parameters)(profile)});
         if !self.writes.is_empty() {
-            all["writes"] = json!(self.writes);
+            json["writes"] = json!(self.writes);
         }
-        Ok(all)
+        Ok(json)
     }
 
     fn item(&self) -> String {
         self.line.into()
     }
 
-    fn saved(&self, identity: &Identity, store: &Store) -> Result<Found, String> {
-        Ok(Arc::new(store.look::<Output>(identity)?))
+    fn load_saved(&self, identity: &Identity, store: &Store) -> Result<AnyResult, String> {
+        Ok(Arc::new(store.load::<Output>(identity)?))
     }
 
-    fn found(&self, identity: &Identity, session: &Session<'_>) -> Result<Found, Error> {
+    fn read_or_run(&self, identity: &Identity, session: &Session<'_>) -> Result<AnyResult, Error> {
         let unchanged = || match identity.differences(&self.identity(session)?).as_str() {
             "" => Ok(()),
-            what => Err(self.fault(format!("{what} since this run began; run it again"))),
+            problem => Err(self.fault(format!("{problem} since this run began; run it again"))),
         };
         unchanged()?;
         let output = self.run(&session.project.folder(), session);
         session.progress.check()?;
-        let failed = |what| io::Error::other(format!("`{}`: {what}", self.line));
-        let output = output.map_err(|what| Error::failed(self.name, failed(what)))?;
+        let failed = |problem| io::Error::other(format!("`{}`: {problem}", self.line));
+        let output = output.map_err(|problem| Error::failed(self.name, failed(problem)))?;
         unchanged()?;
-        session.store.put(identity, &output)?;
+        session.store.save(identity, &output)?;
         Ok(Arc::new(output))
     }
 
-    fn tables(&self, found: &Found) -> Vec<Table> {
-        let Some(output) = found.downcast_ref::<Output>() else { return Vec::new() };
+    fn tables(&self, result: &AnyResult) -> Vec<Table> {
+        let Some(output) = result.downcast_ref::<Output>() else { return Vec::new() };
         let tables = output.tables.iter();
         tables.map(|(name, table)| table.table(self.name, name, self.line)).collect()
     }

@@ -17,11 +17,9 @@ pub enum Error {
     Failed { experiment: &'static str, source: Box<dyn std::error::Error + Send + Sync> },
     #[error("the results of {0} were not run; add it to `needs`")]
     NotRun(&'static str),
-    #[error("{experiment}: a result is not finite, so it was not saved; use `None` for no number")]
-    NotFinite { experiment: String },
     #[error(
-        "{experiment}: JSON loses some of its result, so it was not saved; let its type have no \
-         `#[serde(skip)]`, and as keys of maps text and whole numbers"
+        "{experiment}: JSON loses some of its result, so it was not saved; use `None` where a number is not finite, \
+         no `#[serde(skip)]`, and as keys of maps text and whole numbers"
     )]
     Lost { experiment: String },
     #[error("--results: {path}: {source}; {}", remedy(source, "choose another folder"))]

@@ -49,7 +49,7 @@ impl<P, T> Experiment<P, T> {
     }
 }
 
-pub type Found = Arc<dyn Any + Send + Sync>;
+pub type AnyResult = Arc<dyn Any + Send + Sync>;
 
 impl<P: Json, T: Json, U: Json> Experiment<P, T, U> {
     /// Returns its parameters, and the JSON by which a saved result is known, which reads back to
@@ -85,34 +85,35 @@ impl<P: Json, T: Json, U: Json> Experiment<P, T, U> {
         let How::Cut(words, cutting) = &self.how else { return Ok((Vec::new(), 0)) };
         let (store, progress, name) = (&session.store, &session.progress, self.name);
         let saved: Vec<Result<U, String>> =
-            units.par_iter().map(|unit| store.look(&identity.of_unit(unit))).collect();
-        let (mut lost, mut weight) = (BTreeMap::new(), 0);
-        for (unit, found) in units.iter().zip(&saved) {
-            if let Err(why) = found {
-                *lost.entry(why.clone()).or_insert(0) += 1;
-                weight += unit.weight;
+            units.par_iter().map(|unit| store.load(&identity.for_unit(unit))).collect();
+        let (mut reasons, mut work) = (BTreeMap::new(), 0);
+        for (unit, saved_part) in units.iter().zip(&saved) {
+            if let Err(reason) = saved_part {
+                *reasons.entry(reason.clone()).or_insert(0) += 1;
+                work += unit.weight;
             }
         }
-        let run: usize = lost.values().sum();
-        if run < units.len() {
-            let all = count(units.len(), "unit");
-            progress.say(&format!("{name}: {} of {all} there", units.len() - run));
+        let units_to_run: usize = reasons.values().sum();
+        if units_to_run < units.len() {
+            let units_in_words = count(units.len(), "unit");
+            progress
+                .say(&format!("{name}: {} of {units_in_words} there", units.len() - units_to_run));
         }
-        for (why, number) in lost.iter().filter(|(why, _)| *why != "run") {
-            progress.say(&format!("{name}: {} {why}", count(*number, "unit")));
+        for (reason, number) in reasons.iter().filter(|(reason, _)| *reason != "run") {
+            progress.say(&format!("{name}: {} {reason}", count(*number, "unit")));
         }
-        let stage = progress.stage(words, weight);
-        let part = |(unit, found): (&Unit, Result<U, String>)| {
-            if let Ok(part) = found {
+        let stage = progress.stage(words, work);
+        let part = |(unit, saved_part): (&Unit, Result<U, String>)| {
+            if let Ok(part) = saved_part {
                 return Ok(part);
             }
             let part = (cutting.part)(parameters, unit, &stage, progress)?;
-            store.put(&identity.of_unit(unit), &part)?;
+            store.save(&identity.for_unit(unit), &part)?;
             Ok(part)
         };
         // Units share the cores with the realisations inside them.
         let parts = units.par_iter().zip(saved).with_max_len(1).map(part);
-        Ok((parts.collect::<Result<_, Error>>()?, run))
+        Ok((parts.collect::<Result<_, Error>>()?, units_to_run))
     }
 }
 
@@ -126,12 +127,12 @@ pub trait AnyExperiment: Sync {
     }
 
     /// Checks that the files that it lists are there.
-    fn check(&self, project: &Project) -> Result<(), Error>;
+    fn check_files(&self, project: &Project) -> Result<(), Error>;
 
-    /// Returns name and hash of all that its result is made of, but for its parameters.
+    /// Returns what the result is made of besides the parameters: a hash by the name of each thing.
     ///
     /// # Errors
-    /// Something cannot be read.
+    /// It cannot be read.
     fn made_of(&self, session: &Session<'_>) -> Result<BTreeMap<String, String>, Error>;
 
     /// Returns its parameters as JSON.
@@ -158,58 +159,58 @@ pub trait AnyExperiment: Sync {
         vec![Unit::whole(0)]
     }
 
-    /// Returns those of the given units that must be run: none if its result is fresh.
-    fn missing(&self, mut units: Vec<Unit>, identity: &Identity, store: &Store) -> Vec<Unit> {
+    /// Returns those of the given units that must be run; these are none if the saved result is
+    /// fresh.
+    fn units_to_run(&self, mut units: Vec<Unit>, identity: &Identity, store: &Store) -> Vec<Unit> {
         if !self.is_saved() || store.fresh(identity).is_ok() {
             return Vec::new();
         }
-        units.retain(|unit| store.fresh(&identity.of_unit(unit)).is_err());
+        units.retain(|unit| store.fresh(&identity.for_unit(unit)).is_err());
         units
     }
 
     /// Runs and saves those of the units that are not in the store; returns how many were run.
     fn run_units(
         &self,
-        _: &[Unit],
+        units: &[Unit],
         identity: &Identity,
         session: &Session<'_>,
     ) -> Result<usize, Error> {
-        if session.store.fresh(identity).is_ok() {
-            return Ok(0);
-        }
-        self.found(identity, session).map(|_| 1)
+        self.read_or_run(identity, session).map(|_| units.len())
     }
 
-    /// Returns what would be run, and why; none if the saved result is fresh.
-    fn stale(&self, session: &Session<'_>) -> Result<Option<String>, Error> {
+    /// Returns why and how much of the experiment must be run, or `None` if its saved result is
+    /// fresh.
+    fn why_stale(&self, session: &Session<'_>) -> Result<Option<String>, Error> {
         let identity = self.identity(session)?;
-        let Some(why) = session.store.fresh(&identity).err().filter(|_| self.is_saved()) else {
+        let Some(reason) = session.store.fresh(&identity).err().filter(|_| self.is_saved()) else {
             return Ok(None);
         };
-        let why = format!("{}: {why}", self.name());
+        let reason = format!("{}: {reason}", self.name());
         let units = self.units(session.profile);
         if let [_] = units[..] {
-            return Ok(Some(why));
+            return Ok(Some(reason));
         }
-        let all = count(units.len(), "unit");
-        let there = units.len() - self.missing(units, &identity, &session.store).len();
-        Ok(Some(format!("{why}; {there} of {all} there")))
+        let units_in_words = count(units.len(), "unit");
+        let saved = units.len() - self.units_to_run(units, &identity, &session.store).len();
+        Ok(Some(format!("{reason}; {saved} of {units_in_words} there")))
     }
 
     /// Returns the saved result, or why it must be run.
-    fn saved(&self, identity: &Identity, store: &Store) -> Result<Found, String>;
+    fn load_saved(&self, identity: &Identity, store: &Store) -> Result<AnyResult, String>;
 
-    /// Returns what is read, or the result of a run, which is then saved.
-    fn found(&self, identity: &Identity, session: &Session<'_>) -> Result<Found, Error>;
+    /// Reads or runs the experiment, and saves the result of a run.
+    fn read_or_run(&self, identity: &Identity, session: &Session<'_>) -> Result<AnyResult, Error>;
 
-    fn tables(&self, found: &Found) -> Vec<Table>;
+    fn tables(&self, result: &AnyResult) -> Vec<Table>;
 
-    /// Returns its result as JSON, and makes a result of it again; none of a command.
-    fn json(&self, _: &Found) -> Option<serde_json::Value> {
+    /// Returns its result as JSON, or `None` if it is a command.
+    fn to_json(&self, _: &AnyResult) -> Option<serde_json::Value> {
         None
     }
 
-    fn of_json(&self, _: serde_json::Value) -> Option<Found> {
+    /// Makes a result of JSON, or returns `None` if it can have no such result.
+    fn read_json(&self, _: serde_json::Value) -> Option<AnyResult> {
         None
     }
 }
@@ -223,14 +224,16 @@ impl<P: Json, T: Json, U: Json> AnyExperiment for Experiment<P, T, U> {
         self.own
     }
 
-    fn check(&self, project: &Project) -> Result<(), Error> {
+    fn check_files(&self, project: &Project) -> Result<(), Error> {
+        let fault = |(problem, remedy)| Error::input(self.name, problem, remedy);
         // Without a checkout there is no code to look for.
-        let lost = self.own.iter().find(|path| !project.exists(path));
-        let own = lost.map_or(Ok(()), |lost| {
-            Err((format!("it lists {lost}, which is not there"), "correct the path"))
-        });
-        let checked = own.and(project.check_listed(self.reads));
-        checked.map_err(|(problem, remedy)| Error::input(self.name, problem, remedy))
+        if let Some(absent) = self.own.iter().find(|path| !project.exists(path)) {
+            return Err(fault((
+                format!("it lists {absent}, which is not there"),
+                "correct the path",
+            )));
+        }
+        project.check_listed(self.reads).map_err(fault)
     }
 
     fn made_of(&self, session: &Session<'_>) -> Result<BTreeMap<String, String>, Error> {
@@ -267,21 +270,18 @@ impl<P: Json, T: Json, U: Json> AnyExperiment for Experiment<P, T, U> {
         identity: &Identity,
         session: &Session<'_>,
     ) -> Result<usize, Error> {
-        if session.store.fresh(identity).is_ok() {
-            return Ok(0);
-        }
         let How::Cut(..) = self.how else {
-            return self.found(identity, session).map(|_| units.len());
+            return self.read_or_run(identity, session).map(|_| units.len());
         };
         let (parameters, _) = self.known_parameters(session.profile)?;
         Ok(self.parts(units, &parameters, identity, session)?.1)
     }
 
-    fn saved(&self, identity: &Identity, store: &Store) -> Result<Found, String> {
-        Ok(Arc::new(store.look::<T>(identity)?))
+    fn load_saved(&self, identity: &Identity, store: &Store) -> Result<AnyResult, String> {
+        Ok(Arc::new(store.load::<T>(identity)?))
     }
 
-    fn found(&self, identity: &Identity, session: &Session<'_>) -> Result<Found, Error> {
+    fn read_or_run(&self, identity: &Identity, session: &Session<'_>) -> Result<AnyResult, Error> {
         let progress = &session.progress;
         let (parameters, _) = self.known_parameters(session.profile)?;
         let result = match &self.how {
@@ -297,21 +297,21 @@ impl<P: Json, T: Json, U: Json> AnyExperiment for Experiment<P, T, U> {
             let problem = "a file that it reads changed since this run began";
             return Err(Error::input(self.name, problem, "run it again"));
         }
-        session.store.put(identity, &result)?;
+        session.store.save(identity, &result)?;
         // Units that stay do no harm: the joined result is looked for first.
         let _ = session.store.remove(identity, false);
         Ok(Arc::new(result))
     }
 
-    fn tables(&self, found: &Found) -> Vec<Table> {
-        found.downcast_ref().map_or_else(Vec::new, self.tables)
+    fn tables(&self, result: &AnyResult) -> Vec<Table> {
+        result.downcast_ref().map_or_else(Vec::new, self.tables)
     }
 
-    fn json(&self, found: &Found) -> Option<serde_json::Value> {
-        serde_json::to_value(found.downcast_ref::<T>()?).ok()
+    fn to_json(&self, result: &AnyResult) -> Option<serde_json::Value> {
+        serde_json::to_value(result.downcast_ref::<T>()?).ok()
     }
 
-    fn of_json(&self, result: serde_json::Value) -> Option<Found> {
+    fn read_json(&self, result: serde_json::Value) -> Option<AnyResult> {
         Some(Arc::new(serde_json::from_value::<T>(result).ok()?))
     }
 }

@@ -15,7 +15,7 @@ mod store;
 
 pub use command::Command;
 pub use error::Error;
-pub use experiment::{AnyExperiment, Experiment, Found};
+pub use experiment::{AnyExperiment, AnyResult, Experiment};
 pub(crate) use process::end_all;
 pub use profile::Profile;
 pub(crate) use progress::stop;

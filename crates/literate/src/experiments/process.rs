@@ -33,7 +33,7 @@ pub(super) fn run(
     running().push(group);
     let (input, output, errors) = (child.stdin.take(), child.stdout.take(), child.stderr.take());
     let mut printed = Vec::new();
-    let (status, said, is_full) = std::thread::scope(|threads| {
+    let (status, errors, is_full) = std::thread::scope(|threads| {
         // In threads, since a program may write much before it reads.
         threads.spawn(|| input.map(|mut input| input.write_all(text.as_bytes())));
         threads.spawn(|| {
@@ -42,22 +42,22 @@ pub(super) fn run(
                 send("KILL", group);
             }
         });
-        let said = threads.spawn(|| {
-            let mut errors = errors.map(|errors| errors.take(MOST << 20));
-            let said = errors.as_mut().map(|errors| lines_of(errors, hear));
-            let is_full = errors.is_some_and(|errors| errors.limit() == 0);
+        let errors = threads.spawn(|| {
+            let mut stream = errors.map(|errors| errors.take(MOST << 20));
+            let lines = stream.as_mut().map(|stream| lines_of(stream, hear));
+            let is_full = stream.is_some_and(|stream| stream.limit() == 0);
             if is_full {
                 send("KILL", group);
             }
-            (said.unwrap_or_default(), is_full)
+            (lines.unwrap_or_default(), is_full)
         });
         let status = child.wait();
         // After a signal its children may take some time to end.
         if !Progress::silent().stopped() {
             let _ = guard.wait();
         }
-        let (said, is_full) = said.join().unwrap_or_default();
-        (status, said, is_full)
+        let (errors, is_full) = errors.join().unwrap_or_default();
+        (status, errors, is_full)
     });
     let _ = guard.wait();
     running().retain(|other| *other != group);
@@ -65,9 +65,9 @@ pub(super) fn run(
         _ if is_full || printed.len() as u64 > MOST << 20 => {
             Err(format!("printed more than {MOST} MiB; print less, or write a file in `writes`"))
         }
-        Ok(status) if status.success() => Ok((printed, said)),
-        Ok(status) if said.is_empty() => Err(format!("ended with {status}; it said nothing")),
-        Ok(status) => Err(format!("ended with {status}; it said:\n{}", said.trim_end())),
+        Ok(status) if status.success() => Ok((printed, errors)),
+        Ok(status) if errors.is_empty() => Err(format!("ended with {status}; it said nothing")),
+        Ok(status) => Err(format!("ended with {status}; it said:\n{}", errors.trim_end())),
         Err(error) => Err(cannot(error)),
     }
 }
@@ -82,22 +82,23 @@ fn guard() -> io::Result<Child> {
 
 /// Hands over each line, and returns the last of those that are to be kept.
 fn lines_of(errors: impl Read, mut hear: impl FnMut(&str) -> bool) -> String {
-    let (mut errors, mut kept, mut line) = (BufReader::new(errors), String::new(), Vec::new());
+    let (mut errors, mut kept_lines, mut line) =
+        (BufReader::new(errors), String::new(), Vec::new());
     let mut next = |line: &mut Vec<u8>| errors.by_ref().take(KEPT as u64).read_until(b'\n', line);
     while next(&mut line).is_ok_and(|length| length > 0) {
-        let text = String::from_utf8_lossy(&line);
+        let line_text = String::from_utf8_lossy(&line);
         // A bar of progress writes over itself: its last state counts.
-        let text = text.trim_end().rsplit('\r').next().unwrap_or_default();
-        let text = text.replace(is_control, " ");
-        if hear(&text) {
-            kept.extend([&text, "\n"]);
+        let line_text = line_text.trim_end().rsplit('\r').next().unwrap_or_default();
+        let line_text = line_text.replace(is_control, " ");
+        if hear(&line_text) {
+            kept_lines.extend([&line_text, "\n"]);
         }
-        if kept.len() > KEPT {
-            kept.drain(..kept.ceil_char_boundary(kept.len() - KEPT / 2));
+        if kept_lines.len() > KEPT {
+            kept_lines.drain(..kept_lines.ceil_char_boundary(kept_lines.len() - KEPT / 2));
         }
         line.clear();
     }
-    kept
+    kept_lines
 }
 
 fn running() -> std::sync::MutexGuard<'static, Vec<u32>> {

@@ -21,16 +21,16 @@ pub(crate) fn stop() {
 
 #[derive(Clone, Copy, Debug)]
 pub struct Progress {
-    quiet: bool,
+    is_quiet: bool,
 }
 
 impl Progress {
     pub fn silent() -> Self {
-        Progress { quiet: true }
+        Progress { is_quiet: true }
     }
 
     pub fn on_stderr() -> Self {
-        Progress { quiet: QUIET.load(Ordering::Relaxed) }
+        Progress { is_quiet: QUIET.load(Ordering::Relaxed) }
     }
 
     /// Returns whether the work was asked to end. This costs one relaxed load.
@@ -47,12 +47,12 @@ impl Progress {
         let position = Arc::clone(&done);
         // At equal times, since the first unit may be a long one.
         let share = move || progress_text(position.load(Ordering::Relaxed), total, began.elapsed());
-        let lines = (!self.quiet).then(|| alive(move || format!("{name}: {}", share())));
+        let lines = (!self.is_quiet).then(|| alive(move || format!("{name}: {}", share())));
         Stage { done, _lines: lines }
     }
 
     pub fn say(&self, line: &str) {
-        if !self.quiet {
+        if !self.is_quiet {
             say(line);
         }
     }
@@ -100,12 +100,13 @@ impl Stage {
 /// The units of a stage of which only shares are known.
 pub(super) const PARTS: u64 = 1_000_000;
 
-/// Returns the share that a line reports: `progress 40 %`, `progress 40/100`; none of other lines.
+/// Returns the share of the work that a line reports, `progress 40 %` or `progress 40/100`, or
+/// `None` if it is another line.
 pub(super) fn share_in(line: &str) -> Option<f64> {
     let words = line.strip_prefix("progress ")?.trim();
     let percent = words.strip_suffix('%').map(|done| (done, "100"));
-    let (done, all) = percent.or_else(|| words.split_once('/'))?;
-    let share = done.trim().parse::<f64>().ok()? / all.trim().parse::<f64>().ok()?;
+    let (done, total) = percent.or_else(|| words.split_once('/'))?;
+    let share = done.trim().parse::<f64>().ok()? / total.trim().parse::<f64>().ok()?;
     (0.0..=1.0).contains(&share).then_some(share)
 }
 
@@ -117,9 +118,9 @@ fn progress_text(done: u64, total: u64, elapsed: Duration) -> String {
     }
     let share = if total == 0 { 1.0 } else { done as f64 / total as f64 };
     let percent = (100.0 * share).floor();
-    let left = elapsed.as_secs_f64() * (1.0 - share) / share;
-    if left.is_finite() && left >= 1.0 {
-        format!("{percent:.0} %, about {left:.0} s left")
+    let seconds_left = elapsed.as_secs_f64() * (1.0 - share) / share;
+    if seconds_left.is_finite() && seconds_left >= 1.0 {
+        format!("{percent:.0} %, about {seconds_left:.0} s left")
     } else {
         format!("{percent:.0} %")
     }
@@ -131,8 +132,8 @@ mod tests {
 
     #[test]
     fn a_share_is_shown_once_it_is_known() {
-        let text = |done| progress_text(done, 10, Duration::from_secs(8));
-        assert_eq!([0, 4].map(text), ["running", "40 %, about 12 s left"]);
+        let after_eight_seconds = |done| progress_text(done, 10, Duration::from_secs(8));
+        assert_eq!([0, 4].map(after_eight_seconds), ["running", "40 %, about 12 s left"]);
         let known = ["progress 40 %", "progress 2.5%", "progress 1 / 2"].map(share_in);
         assert_eq!(known, [Some(0.4), Some(0.025), Some(0.5)]);
         let others = ["progress 140 %", "progress 0/0", "progress is slow", "40 %"].map(share_in);

@@ -29,29 +29,30 @@ impl Session<'_> {
         Session { progress: Progress::silent(), templates, store, code, ..*self }
     }
 
-    /// Prints one line if some units are to be run: of what, and about how long they take.
-    pub(crate) fn announce(&self, what: &str, units: &[Unit]) -> Result<(), Error> {
+    /// Prints one line that says what is run and about how long it takes, if any units are to be
+    /// run.
+    pub(crate) fn announce(&self, subject: &str, units: &[Unit]) -> Result<(), Error> {
         if units.is_empty() {
             return Ok(());
         }
         self.store.prepare()?;
         let threads = rayon::current_num_threads();
         let (time, threads) = (time(units, threads as u64), count(threads, "thread"));
-        let more = match self.profile {
+        let remark = match self.profile {
             _ if time.is_empty() => ", time unknown",
             Profile::Full => "; `--profile quick` takes seconds",
             Profile::Quick => "",
         };
-        self.progress.say(&format!("{what} to run{time} on {threads}{more}"));
+        self.progress.say(&format!("{subject} to run{time} on {threads}{remark}"));
         Ok(())
     }
 }
 
-/// Returns how long units take; nothing if none of them has an estimate of its work.
+/// Returns in words how long units take, or no words if the work of all of them is unknown.
 fn time(units: &[Unit], threads: u64) -> String {
     let work: u64 = units.iter().map(|unit| unit.weight).sum();
-    let more = if units.iter().any(|unit| unit.weight == 0) { " or more" } else { "" };
-    if work == 0 { "".into() } else { format!(", {}{more}", duration(work / SECOND / threads)) }
+    let or_more = if units.iter().any(|unit| unit.weight == 0) { " or more" } else { "" };
+    if work == 0 { "".into() } else { format!(", {}{or_more}", duration(work / SECOND / threads)) }
 }
 
 /// Returns a time in words, as precise as an estimate from counted work is.
@@ -71,7 +72,7 @@ mod tests {
         /// Makes a session of a project of three files, with small samples and without prose.
         pub(crate) fn toy(store: Store, progress: Progress) -> Self {
             let project = Box::leak(Box::new(Project::new(crate::source::toy())));
-            let (templates, profile) = (Templates::of([]), Profile::Quick);
+            let (templates, profile) = (Templates::from_files([]), Profile::Quick);
             let code = Code::default();
             Session { project, templates, profile, store, progress, code }
         }

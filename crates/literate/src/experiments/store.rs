@@ -7,7 +7,7 @@
 
 use super::cutting::Unit;
 use super::{Error, Profile};
-use crate::input::{WRITING, is_absent, one_line, regular_text, sha256};
+use crate::input::{WRITING, is_absent, one_line, read_text, sha256};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
@@ -49,7 +49,7 @@ impl Identity {
         }
     }
 
-    pub fn of_unit(&self, unit: &Unit) -> Self {
+    pub fn for_unit(&self, unit: &Unit) -> Self {
         Identity { unit: Some(unit.clone()), ..self.clone() }
     }
 
@@ -108,32 +108,32 @@ impl Store {
     }
 
     /// Returns the saved result, or why it must be run, as [`Store::fresh`] does.
-    pub fn look<T: DeserializeOwned>(&self, identity: &Identity) -> Result<T, String> {
-        let text = self.fresh(identity)?;
-        let body = text.split('\n').nth(2).unwrap_or_default();
-        serde_json::from_str(body).map_err(|_| again(OLDER_FORMAT))
+    pub fn load<T: DeserializeOwned>(&self, identity: &Identity) -> Result<T, String> {
+        let saved = self.fresh(identity)?;
+        let body = saved.split('\n').nth(2).unwrap_or_default();
+        serde_json::from_str(body).map_err(|_| run_again(OLDER_FORMAT))
     }
 
     /// Returns the result that was saved last, whatever it was made of.
-    pub(super) fn last<T: DeserializeOwned>(&self, name: &str, profile: Profile) -> Option<T> {
+    pub(super) fn load_last<T: DeserializeOwned>(&self, name: &str, profile: Profile) -> Option<T> {
         let identity = Identity::new(name, profile, BTreeMap::new(), ().into());
-        let text = regular_text(&self.path(&identity)?).ok()?;
-        made_of(&text).ok()?;
-        serde_json::from_str(text.split('\n').nth(2)?).ok()
+        let saved = read_text(&self.path(&identity)?).ok()?;
+        parse_identity(&saved).ok()?;
+        serde_json::from_str(saved.split('\n').nth(2)?).ok()
     }
 
     /// Returns the text of a saved file that is whole and was made of the same, or why the result
     /// must be run, in one line: `run`, `run again, Cargo.lock changed`.
     pub fn fresh(&self, identity: &Identity) -> Result<String, String> {
-        let text = match self.path(identity).map(|path| regular_text(&path)) {
-            Some(Ok(text)) => text,
+        let saved = match self.path(identity).map(|path| read_text(&path)) {
+            Some(Ok(saved)) => saved,
             Some(Err(error)) if !is_absent(&error) => {
-                return Err(again(&format!("the saved result cannot be read: {error}")));
+                return Err(run_again(&format!("the saved result cannot be read: {error}")));
             }
             _ => return Err("run".into()),
         };
-        let differences = identity.differences(&made_of(&text).map_err(again)?);
-        if differences.is_empty() { Ok(text) } else { Err(again(&differences)) }
+        let differences = identity.differences(&parse_identity(&saved).map_err(run_again)?);
+        if differences.is_empty() { Ok(saved) } else { Err(run_again(&differences)) }
     }
 
     /// Makes the folder, so that one which cannot be made is known before a run.
@@ -143,11 +143,11 @@ impl Store {
         std::fs::create_dir_all(folder).map_err(failed)
     }
 
-    pub fn put<T: Json>(&self, identity: &Identity, result: &T) -> Result<(), Error> {
+    pub fn save<T: Json>(&self, identity: &Identity, result: &T) -> Result<(), Error> {
         let Some(path) = self.path(identity) else { return Ok(()) };
-        let [made_of, body] = [written(identity, identity)?, written(identity, result)?];
-        let text = format!("{}\n{made_of}\n{body}\n", digest(&[&made_of, &body]));
-        save(&path, &text).map_err(|source| Error::Store { path, source })
+        let [made_of, body] = [to_json(identity, identity)?, to_json(identity, result)?];
+        let file = format!("{}\n{made_of}\n{body}\n", digest(&[&made_of, &body]));
+        write_whole(&path, &file).map_err(|source| Error::Store { path, source })
     }
 
     /// Removes the units of a result, and the result too if it is to be run again.
@@ -170,12 +170,12 @@ impl Store {
     }
 }
 
-fn again(why: &str) -> String {
-    format!("run again, {}", one_line(why, 1000))
+fn run_again(reason: &str) -> String {
+    format!("run again, {}", one_line(reason, 1000))
 }
 
-fn made_of(text: &str) -> Result<Identity, &'static str> {
-    let lines: Vec<&str> = text.split('\n').collect();
+fn parse_identity(saved: &str) -> Result<Identity, &'static str> {
+    let lines: Vec<&str> = saved.split('\n').collect();
     let [checksum, identity, body, ""] = lines[..] else {
         return Err("the saved result is cut short or has extra lines");
     };
@@ -187,35 +187,20 @@ fn made_of(text: &str) -> Result<Identity, &'static str> {
 
 /// Writes a result as text that reads back to the same bits. JSON has neither NaN nor infinity, and
 /// serde_json writes null instead: reading back finds all such losses, and those of fields.
-fn written<T: Json>(identity: &Identity, result: &T) -> Result<String, Error> {
-    let lost = || {
-        let experiment = identity.experiment.clone();
-        match tera::Value::try_from_serializable(result) {
-            Ok(value) if !is_finite(&value) => Error::NotFinite { experiment },
-            _ => Error::Lost { experiment },
-        }
-    };
-    let body = serde_json::to_string(result).map_err(|_| lost())?;
-    match serde_json::from_str::<T>(&body) {
-        Ok(read) if read == *result => Ok(body),
-        _ => Err(lost()),
-    }
-}
-
-/// Returns whether all numbers are finite; unlike JSON, the values of Tera have those that are not.
-fn is_finite(value: &tera::Value) -> bool {
-    let list = value.as_array().is_none_or(|list| list.iter().all(is_finite));
-    let map = value.as_map().is_none_or(|map| map.values().all(is_finite));
-    list && map && value.as_f64().is_none_or(f64::is_finite)
+fn to_json<T: Json>(identity: &Identity, result: &T) -> Result<String, Error> {
+    let json = serde_json::to_string(result).ok();
+    let is_same = |json: &String| serde_json::from_str(json).is_ok_and(|read: T| read == *result);
+    json.filter(is_same).ok_or_else(|| Error::Lost { experiment: identity.experiment.clone() })
 }
 
 /// Writes a temporary file and renames it, so that no file ever has half a result.
-fn save(path: &Path, text: &str) -> std::io::Result<()> {
+fn write_whole(path: &Path, content: &str) -> std::io::Result<()> {
     std::fs::create_dir_all(path.parent().unwrap_or(path))?;
     let _moment = WRITING.read();
-    let waiting = path.with_extension(format!("json.{}", std::process::id()));
-    let saved = std::fs::write(&waiting, text).and_then(|()| std::fs::rename(&waiting, path));
-    saved.inspect_err(|_| drop(std::fs::remove_file(&waiting)))
+    let temporary = path.with_extension(format!("json.{}", std::process::id()));
+    let saved =
+        std::fs::write(&temporary, content).and_then(|()| std::fs::rename(&temporary, path));
+    saved.inspect_err(|_| drop(std::fs::remove_file(&temporary)))
 }
 
 fn digest(lines: &[&str]) -> String {
@@ -229,23 +214,27 @@ mod tests {
     #[test]
     fn results_come_back_to_the_bit_and_what_is_not_finite_is_not_saved() {
         let folder = tempfile::tempdir().unwrap();
-        let mut normals = impact_numerics::random::NormalPairs::new("test-store", 1, 0);
+        let mut normals = impact_numerics::random::NormalPairs::new(
+            "test-store",
+            impact_numerics::random::Seed(1),
+            0,
+        );
         let mut result: Vec<_> = (0..500).flat_map(|_| normals.pair()).map(Some).collect();
         result.extend([None, Some(-0.0), Some(f64::MIN_POSITIVE / 4.0), Some(f64::MAX)]);
         let store = Store::open(folder.path());
         let identity = Identity::new("test", Profile::Quick, Default::default(), 1.5.into());
-        store.put(&identity, &result).unwrap();
-        let again: Vec<Option<f64>> = store.look(&identity).unwrap();
+        store.save(&identity, &result).unwrap();
+        let again: Vec<Option<f64>> = store.load(&identity).unwrap();
         assert_eq!(format!("{again:?}"), format!("{result:?}"));
         for bad in [f64::NAN, f64::INFINITY] {
-            let bad = store.put(&identity, &vec![None, Some(bad)]);
-            assert!(matches!(bad, Err(Error::NotFinite { .. })));
+            let bad = store.save(&identity, &vec![None, Some(bad)]);
+            assert!(matches!(bad, Err(Error::Lost { .. })));
         }
         #[derive(PartialEq, Serialize, Deserialize)]
         struct Partly(Option<f64>, #[serde(skip)] u32);
-        assert!(matches!(store.put(&identity, &Partly(None, 1)), Err(Error::Lost { .. })));
+        assert!(matches!(store.save(&identity, &Partly(None, 1)), Err(Error::Lost { .. })));
         let keys = BTreeMap::from([((1, 2), 3)]);
-        assert!(matches!(written(&identity, &keys), Err(Error::Lost { .. })));
+        assert!(matches!(to_json(&identity, &keys), Err(Error::Lost { .. })));
     }
 
     #[test]
@@ -254,9 +243,9 @@ mod tests {
         let store = Store::open(folder.path());
         let of = |name| Identity::new(name, Profile::Full, Default::default(), 1.into());
         let ([a, long], unit) = ([of("a"), of("a-full")], Unit::whole(1));
-        let all = [a.of_unit(&unit), a.clone(), long.of_unit(&unit), long];
-        all.iter().for_each(|one| store.put(one, &7).unwrap());
+        let identities = [a.for_unit(&unit), a.clone(), long.for_unit(&unit), long];
+        identities.iter().for_each(|one| store.save(one, &7).unwrap());
         store.remove(&a, true).unwrap();
-        assert_eq!(all.map(|one| store.fresh(&one).is_ok()), [false, false, true, true]);
+        assert_eq!(identities.map(|one| store.fresh(&one).is_ok()), [false, false, true, true]);
     }
 }

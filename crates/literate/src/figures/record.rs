@@ -121,6 +121,6 @@ mod tests {
             "other,0.1,0.2,,,",
         ];
         let file = record.file().unwrap();
-        assert_eq!((file.name.as_str(), file.csv()), ("a.csv", lines.join("\n") + "\n"));
+        assert_eq!((file.name.as_str(), file.to_csv()), ("a.csv", lines.join("\n") + "\n"));
     }
 }

@@ -290,6 +290,6 @@ mod tests {
         let file = &sheet.finish("", Default::default()).data[0];
         let rows = "cut,0.1,0.5,\ncut,0.3,0.001,\nedge,0.2,0,\n\
                     estimates,0.5,0.1,0.2\nestimates,0.7,2,0.1\n";
-        assert_eq!((&*file.name, file.csv().split_once('\n').unwrap().1), ("b.csv", rows));
+        assert_eq!((&*file.name, file.to_csv().split_once('\n').unwrap().1), ("b.csv", rows));
     }
 }

@@ -2,10 +2,10 @@
 
 use super::bibliography::Library;
 use super::card::{Cards, link_to_line, links};
-use super::claims::{row, scorecard};
+use super::claims::{scorecard, to_row};
 use super::document::{self, Block, Inline, visit};
 use super::edition::Document;
-use super::error::Error;
+use super::error::{Error, Thing};
 use super::filled::{Filled, Places};
 use super::filler::Filler;
 use super::folder::{self, Files, SUMS, is_generated};
@@ -19,7 +19,7 @@ use super::values::Registry;
 use super::{coded, html, latex, ledger, markdown, parse, search};
 use crate::claims::Check;
 use crate::figures::Figure;
-use crate::input::one_line;
+use crate::input::{Place, one_line};
 use crate::names::Names;
 use crate::table::{DataFile, Table};
 use rayon::prelude::*;
@@ -40,14 +40,15 @@ pub fn assemble(input: &Input<'_>) -> Result<Files, Error> {
     values.shorten(&input.project.sources);
 
     let declared = filler.declared.clone();
-    let read = || parts(input, &filled, &values, &declared);
+    let read_parts = || parts(input, &filled, &values, &declared);
     let tables: Vec<&Table> = values.tables().collect();
     check_files(&tables, input.figures)?;
-    let tables = tables.par_iter().map(|table| data(&DataFile::of(table)));
+    let tables = tables.par_iter().map(|table| data(&DataFile::from_table(table)));
     let figure = |figure: &Figure| files_of(figure, input.edition.license);
     let figures = input.figures.par_iter().flat_map_iter(figure);
-    let (read, mut files): (_, Files) = rayon::join(read, || tables.chain(figures).collect());
-    let (parts, labels) = read?;
+    let (read_parts, mut files): (_, Files) =
+        rayon::join(read_parts, || tables.chain(figures).collect());
+    let (parts, labels) = read_parts?;
     let cover = input.edition.cover.and_then(|cover| input.figure(cover));
     let style = input.templates.text("report.css")?;
     files.extend(cover.and_then(|figure| dark(figure, style)));
@@ -58,14 +59,14 @@ pub fn assemble(input: &Input<'_>) -> Result<Files, Error> {
         files.insert(name.into(), json.into_bytes());
     }
     let mut errors = Vec::new();
-    let shown = write_documents(input, &parts, &mut filler, &mut files, &mut errors)?;
+    let opened = write_documents(input, &parts, &mut filler, &mut files, &mut errors)?;
     for part in &parts {
         errors.extend(check_links(part, &labels, &files, input));
     }
     all_in_order(errors)?;
-    let (Input { edition, project, experiments, .. }, shared) = (*input, Default::default());
-    let cards = Cards { values: &values, ledger: &ledger, edition, project, experiments, shared };
-    files.extend(html::shared::files(&shown, &cards, input, &labels)?);
+    let Input { edition, project, experiments, .. } = *input;
+    let cards = Cards { values: &values, ledger: &ledger, edition, project, experiments };
+    files.extend(html::shared::files(&opened, &cards, input, &labels)?);
     folder::add_lists(&mut files);
     Ok(files)
 }
@@ -79,7 +80,7 @@ fn fill(input: &Input<'_>) -> Result<(Registry, Filler, Vec<Filled>), Error> {
     let mut filler = Filler::new(input.templates, &values)?;
     all_in_order(coded::check(input, &filler.declared))?;
     for (name, checks) in [("claims", printed), ("relations", relations)] {
-        filler.insert(name, &checks.iter().map(row).collect::<Vec<_>>());
+        filler.insert(name, &checks.iter().map(to_row).collect::<Vec<_>>());
     }
     filler.insert("figures", &ledger::figures(input.figures));
     filler.insert("equations", &input.edition.equations);
@@ -97,18 +98,12 @@ fn fill(input: &Input<'_>) -> Result<(Registry, Filler, Vec<Filled>), Error> {
     Ok((values, filler, filled))
 }
 
-/// Returns all errors, each once, in the order of their lines.
+/// Fails if there are errors, with each of them once, in the order of their places.
 fn all_in_order(errors: Vec<Error>) -> Result<(), Error> {
-    let mut errors: Vec<Error> = errors.into_iter().flat_map(Error::each).collect();
-    errors.sort_by_cached_key(|error| {
-        let text = error.to_string();
-        let mut place = text.splitn(4, ':');
-        let file = place.next().unwrap_or_default().to_string();
-        let mut number = || place.next().and_then(|n| n.parse().ok()).unwrap_or(usize::MAX);
-        (file, number(), number())
-    });
+    let mut errors: Vec<Error> = errors.into_iter().flat_map(Error::into_list).collect();
+    errors.sort_by(|a, b| a.place().cmp(&b.place()));
     errors.dedup_by_key(|error| error.to_string());
-    Error::all(errors)
+    Error::check(errors)
 }
 
 /// Reads all documents into trees, with their figures, numbers and references. Returns all errors.
@@ -120,33 +115,33 @@ fn parts<'a>(
 ) -> Result<(Vec<Part<'a>>, Labels), Error> {
     let library = Library::read(input.templates.text("references.bib")?).map_err(|error| {
         let placed = |error: Error| Error::Template(input.templates.place(&error.to_string()));
-        Error::Several(error.each().into_iter().map(placed).collect())
+        Error::Several(error.into_list().into_iter().map(placed).collect())
     })?;
-    let (mut labels, mut shown, mut errors) = (Labels::default(), BTreeSet::new(), Vec::new());
+    let (mut labels, mut placed, mut errors) = (Labels::default(), BTreeSet::new(), Vec::new());
     let mut parts: Vec<Part<'_>> = Vec::new();
-    let read = |filled| parse::parse(filled, values, declared, &input.project.sources);
-    let read = filled.par_iter().with_max_len(1).map(read).collect::<Vec<_>>();
-    let is_broken = read.iter().any(|parsed| !parsed.errors.is_empty());
-    for ((document, filled), parsed) in input.edition.documents.iter().zip(filled).zip(read) {
-        let Parsed { mut blocks, places, errors: found } = parsed;
-        errors.extend(found);
+    let parsed = |filled| parse::parse(filled, values, declared, &input.project.sources);
+    let parsed = filled.par_iter().with_max_len(1).map(parsed).collect::<Vec<_>>();
+    let is_broken = parsed.iter().any(|parsed| !parsed.errors.is_empty());
+    for ((document, filled), parsed) in input.edition.documents.iter().zip(filled).zip(parsed) {
+        let Parsed { mut blocks, places, errors: more } = parsed;
+        errors.extend(more);
         if let Some(error) = document::title(&blocks).err().filter(|_| !is_broken) {
-            errors.push(error.at(filled.place(0)));
+            errors.push(error.with_place(filled.place(0)));
         }
-        let (figures, found) = illustrate(&mut blocks, input);
-        errors.extend(found.into_iter().map(|error| places.locate(error)));
+        let (figures, more) = illustrate(&mut blocks, input);
+        errors.extend(more.into_iter().map(|error| places.locate(error)));
         let digits = other_digits(&mut blocks, &input.edition.equations);
         errors.extend(digits.into_iter().map(|error| places.locate(error)));
         let numbered = labels.number_all(&mut blocks, *document);
         errors.extend(numbered.err().map(|error| places.locate(error)));
         if !document.repeats {
-            shown.extend(figures);
+            placed.extend(figures);
         }
         parts.push(Part { document: *document, blocks, places });
     }
     // What a block with an error shows or names is not known.
     if !is_broken {
-        let figures = input.figures.iter().filter(|figure| !shown.contains(&figure.id));
+        let figures = input.figures.iter().filter(|figure| !placed.contains(&figure.id));
         errors.extend(figures.map(|figure| Error::NotShown(figure.id.clone())));
         for EquationEntry { number, .. } in &input.edition.equations {
             if labels.get(&format!("eq:{number}")).is_none() {
@@ -175,11 +170,13 @@ fn other_digits(blocks: &mut [Block], equations: &[EquationEntry]) -> Vec<Error>
     let mut errors = Vec::new();
     visit(blocks, &mut |inline| {
         let Inline::Display { formula, number, .. } = inline else { return };
-        let found: String = formula.digits().chars().filter(char::is_ascii_digit).collect();
-        let own = equations.iter().filter(|listed| listed.number.to_string() == *number);
-        for other in own.filter_map(|own| own.digits).filter(|digits| *digits != found) {
-            let what = format!("equation ({number}) has the digits {found}, in the list {other}");
-            errors.push(Error::Named { thing: format!("#eq:{number}"), what });
+        let digits: String = formula.to_tex().chars().filter(char::is_ascii_digit).collect();
+        let listed = equations.iter().filter(|listed| listed.number.to_string() == *number);
+        for other in listed.filter_map(|equation| equation.digits).filter(|other| *other != digits)
+        {
+            let problem =
+                format!("equation ({number}) has the digits {digits}, in the list {other}");
+            errors.push(Error::Named { thing: Thing::Id(format!("eq:{number}")), problem });
         }
     });
     errors
@@ -217,30 +214,30 @@ fn write_documents(
         (print, html::write(blocks, *document, input), markdown::write(blocks), passages)
     };
     let written: Vec<_> = parts.par_iter().with_max_len(1).map(write).collect();
-    let (mut shown, mut texts) = (BTreeSet::new(), Vec::new());
+    let (mut opened, mut texts) = (BTreeSet::new(), Vec::new());
     for (Part { document, places, .. }, written) in parts.iter().zip(written) {
-        let (print, (page, values), mut text, passages) = match written {
-            (Ok(print), Ok(page), text, passages) => (print, page, text, passages),
+        let (print, (page, values), mut markdown, passages) = match written {
+            (Ok(print), Ok(page), markdown, passages) => (print, page, markdown, passages),
             (print, page, ..) => {
-                let found = print.err().into_iter().chain(page.err());
-                errors.extend(found.map(|error| places.locate(error)));
+                let faults = print.err().into_iter().chain(page.err());
+                errors.extend(faults.map(|error| places.locate(error)));
                 continue;
             }
         };
         let byline = edition.byline(*document);
         if !byline.is_empty() {
-            let byline = format!("\n\n*{}*\n\n", markdown::escaped(&byline));
-            text = text.replacen("\n\n", &byline, 1);
+            let byline = format!("\n\n*{}*\n\n", markdown::escape_text(&byline));
+            markdown = markdown.replacen("\n\n", &byline, 1);
         }
-        files.insert(document.markdown.into(), text.into_bytes());
+        files.insert(document.markdown.into(), markdown.into_bytes());
         if let Some(name) = document.print {
             filler.insert("print", &print);
-            let text = filler.fill("report.tex")?;
-            files.insert(format!("{name}.tex"), text.into_bytes());
+            let tex = filler.fill("report.tex")?;
+            files.insert(format!("{name}.tex"), tex.into_bytes());
         }
         filler.insert("page", &page);
         files.insert(document.page.into(), filler.fill("report.html")?.into_bytes());
-        shown.extend(values);
+        opened.extend(values);
         texts.push(serde_json::json!([document.page, document.name, passages]));
     }
     filler.insert("page", &html::shared::data_index(files, edition));
@@ -250,7 +247,7 @@ fn write_documents(
     // What the figures show, for readers who point at it, if it is not too long.
     let points = input.figures.iter().map(|figure| {
         let short = figure.data.iter().filter(|file| file.rows.len() < 2000);
-        (figure.id.as_str(), short.map(DataFile::csv).collect::<Vec<_>>())
+        (figure.id.as_str(), short.map(DataFile::to_csv).collect::<Vec<_>>())
     });
     let points = serde_json::json!(points.collect::<BTreeMap<_, _>>());
     files.insert("points.js".into(), format!("POINTS = {points};\n").into_bytes());
@@ -260,7 +257,7 @@ fn write_documents(
     if let Some(lab) = input.lab {
         files.insert(LAB.into(), lab.as_bytes().to_vec());
     }
-    Ok(shown)
+    Ok(opened)
 }
 
 /// Returns a figure's picture for a dark page, in the colours of the style sheet, if it has any.
@@ -289,25 +286,25 @@ pub fn files_of(figure: &Figure, license: &str) -> Files {
 fn check_files(tables: &[&Table], figures: &[Figure]) -> Result<(), Error> {
     let mut names = Names::default();
     let of_tables =
-        tables.iter().map(|table| (DataFile::name_of(table.name()), table.place().to_string()));
+        tables.iter().map(|table| (DataFile::file_name(table.name()), table.place().to_string()));
     let of_figures = figures.iter().flat_map(|figure| {
         figure.data.iter().map(|file| (file.name.clone(), format!("the figure {}", figure.id)))
     });
     for (name, place) in of_tables.chain(of_figures) {
-        names.add(&name, &place).map_err(|what| Error::Template(format!("data: {what}")))?;
+        names.add(&name, &place).map_err(|problem| Error::Template(format!("data: {problem}")))?;
     }
     Ok(())
 }
 
 fn data(file: &DataFile) -> (String, Vec<u8>) {
-    (format!("data/{}", file.name), file.csv().into_bytes())
+    (format!("data/{}", file.name), file.to_csv().into_bytes())
 }
 
 /// Returns an error for each link that leads neither to a place or a file nor to the web.
 fn check_links(part: &Part<'_>, labels: &Labels, files: &Files, input: &Input<'_>) -> Vec<Error> {
     let committed = || files.keys().map(String::as_str).filter(|path| !is_generated(path));
     let is_page = |to: &str| input.edition.documents.iter().any(|document| document.page == to);
-    let leads = |to: &str| match (to.split_once("://"), to.strip_prefix('#')) {
+    let is_good = |to: &str| match (to.split_once("://"), to.strip_prefix('#')) {
         (Some((scheme, _)), _) => ["https", "http"].contains(&scheme),
         (_, Some(id)) => {
             let label = labels.get(&id.replacen('-', ":", 1));
@@ -317,50 +314,51 @@ fn check_links(part: &Part<'_>, labels: &Labels, files: &Files, input: &Input<'_
         _ if to.starts_with("mailto:") || is_page(to) || to == SUMS => true,
         _ => committed().any(|path| path == to || path.starts_with(&format!("{to}/"))),
     };
-    let error = |(to, place)| {
-        let what = format!("a link to {to}: there is no such file or place; correct or remove it");
-        Error::unknown(format!("({to}"), what, committed()).at(place)
+    let error = |(to, place): (&str, Place)| {
+        let problem =
+            format!("a link to {to}: there is no such file or place; correct or remove it");
+        Error::unknown(Thing::Link(to.into()), problem, committed()).with_place(place)
     };
-    part.places.links().filter(|(to, _)| !leads(to)).map(error).collect()
+    part.places.links().filter(|(to, _)| !is_good(to)).map(error).collect()
 }
 
 /// Adds alternative texts, data and code to the figures of a document, and makes links to files of
 /// the project relative to the folder of the report; returns the names of the figures, and errors.
 fn illustrate(blocks: &mut [Block], input: &Input<'_>) -> (Vec<String>, Vec<Error>) {
-    let (mut shown, mut errors) = (Vec::new(), Vec::new());
+    let (mut names, mut errors) = (Vec::new(), Vec::new());
     for block in blocks.iter_mut() {
         let Block::Figure { files, alt, origin, .. } = block else { continue };
         let path = |figure: &Figure| format!("figures/{}", figure.names()[0]);
         let Some(figure) = input.figures.iter().find(|figure| path(figure) == files[0]) else {
-            let what = format!(
+            let problem = format!(
                 "there is no figure {}; use figures/NAME.svg of a figure of the paper; a file becomes one by Figure::picture",
                 one_line(&files[0], 200)
             );
             let paths: Vec<String> = input.figures.iter().map(path).collect();
             let paths = paths.iter().map(String::as_str);
-            errors.push(Error::unknown(format!("!{}", files[0]), what, paths));
+            errors.push(Error::unknown(Thing::Picture(files[0].clone()), problem, paths));
             continue;
         };
         *files = figure.names();
         *alt = figure.description.text.clone();
-        let words = |words: &str| Inline::Text(words.into());
+        let to_text = |to_text: &str| Inline::Text(to_text.into());
         let data: Vec<String> =
             figure.data.iter().map(|file| format!("data/{}", file.name)).collect();
         let code = input.project.sources.file(&figure.source).map(|file| format!("../{file}"));
         for (name, files) in [("Data: ", data), ("Code: ", code.into_iter().collect())] {
             if !files.is_empty() {
                 let blank = if origin.is_empty() { "" } else { " " };
-                origin.push(words(&format!("{blank}{name}")));
+                origin.push(to_text(&format!("{blank}{name}")));
                 origin.extend(links(&files));
-                origin.push(words("."));
+                origin.push(to_text("."));
             }
         }
-        shown.push(figure.id.clone());
+        names.push(figure.id.clone());
     }
     let linked = |inline| match inline {
         Inline::Code(item) if item.contains("::") => link_to_line(&item, input.project),
         other => other,
     };
     document::rewrite(blocks, &mut |inline| document::relative_link(linked(inline), input.top));
-    (shown, errors)
+    (names, errors)
 }

@@ -5,7 +5,8 @@ use biblatex::{Bibliography, ChunksExt, Entry, ParseError, ParseErrorKind};
 use biblatex::{RawBibliography, RawChunk};
 use std::collections::BTreeSet;
 
-/// Fields of which an entry needs one: with one of its own it has none of these from a parent.
+/// Groups of fields of which an entry needs one: an entry that has one of a group inherits none of
+/// it.
 const ALIKE: [&[&str]; 4] = [
     &["date", "month", "year"],
     &["doi", "eprint", "url"],
@@ -13,28 +14,29 @@ const ALIKE: [&[&str]; 4] = [
     &["institution", "school"],
 ];
 
-/// The names of `xdata` and `crossref` here, so that the crate does not follow them.
+/// The names under which `xdata` and `crossref` are kept, so that the crate does not follow them:
+/// in a circle it would not end.
 const PARENTS: [&str; 2] = [" xdata", " crossref"];
 
 /// Reads the entries. An abbreviation may be made of those that stand before it.
-pub fn entries(text: &str) -> Result<Bibliography, ParseError> {
-    let text = prepared(text);
-    let mut raw = RawBibliography::parse(&text)?;
-    for (at, pair) in raw.abbreviations.iter().enumerate() {
+pub fn parse_entries(bibtex: &str) -> Result<Bibliography, ParseError> {
+    let bibtex = with_braced_values(bibtex);
+    let mut raw = RawBibliography::parse(&bibtex)?;
+    for (place, pair) in raw.abbreviations.iter().enumerate() {
         for part in &pair.value.v {
             let RawChunk::Abbreviation(name) = part.v else { continue };
-            if raw.abbreviations[at..].iter().any(|later| later.key.v == name) {
+            if raw.abbreviations[place..].iter().any(|later| later.key.v == name) {
                 let kind = ParseErrorKind::UnknownAbbreviation(name.into());
                 return Err(ParseError { span: part.span.clone(), kind });
             }
         }
     }
     for entry in &raw.entries {
-        let name = |at: usize| entry.v.fields[at].key.v.to_lowercase();
-        let is_again = |at: &usize| (0..*at).any(|before| name(before) == name(*at));
-        if let Some(at) = (0..entry.v.fields.len()).find(is_again) {
-            let span = entry.v.fields[at].key.span.clone();
-            return Err(ParseError { span, kind: ParseErrorKind::DuplicateKey(name(at)) });
+        let name = |place: usize| entry.v.fields[place].key.v.to_lowercase();
+        let is_repeated = |place: &usize| (0..*place).any(|before| name(before) == name(*place));
+        if let Some(place) = (0..entry.v.fields.len()).find(is_repeated) {
+            let span = entry.v.fields[place].key.span.clone();
+            return Err(ParseError { span, kind: ParseErrorKind::DuplicateKey(name(place)) });
         }
     }
     for field in raw.entries.iter_mut().flat_map(|entry| &mut entry.v.fields) {
@@ -44,21 +46,21 @@ pub fn entries(text: &str) -> Result<Bibliography, ParseError> {
     Bibliography::from_raw(raw)
 }
 
-/// Sets quoted values in braces, since they may have quotes in braces, and `\'\i` as `\' i`: no
-/// place of the text moves.
-fn prepared(text: &str) -> String {
-    let mut text = text.to_string();
+/// Writes quoted values in braces, since they may have quotes in braces, and `\'\i` as `\' i`,
+/// without moving any place of the text.
+fn with_braced_values(bibtex: &str) -> String {
+    let mut bibtex = bibtex.to_string();
     for accent in "`'\"^~=.uvHcdbrk".chars() {
         // The blank after a macro is none.
         for macros in [r"\i ", r"\j ", r"\i", r"\j"] {
             let letter = format!("{:>1$}", macros[1..].trim(), macros.len());
-            text = text.replace(&format!(r"\{accent}{macros}"), &format!(r"\{accent}{letter}"));
+            bibtex = bibtex.replace(&format!(r"\{accent}{macros}"), &format!(r"\{accent}{letter}"));
         }
     }
     let (mut depth, mut before) = (0, ' ');
     let [mut is_entry, mut is_comment, mut is_quoted, mut is_literal] = [false; 4];
     let sign = |sign: char| {
-        let mut set = sign;
+        let mut written = sign;
         match sign {
             '\n' => is_comment = false,
             _ if is_comment || is_literal => (),
@@ -70,43 +72,47 @@ fn prepared(text: &str) -> String {
                 is_entry = depth > 0;
             }
             '"' if depth == 1 && (is_quoted || ['=', '#'].contains(&before)) => {
-                set = if is_quoted { '}' } else { '{' };
+                written = if is_quoted { '}' } else { '{' };
                 is_quoted = !is_quoted;
             }
             _ => (),
         }
         is_literal = sign == '\\' && !is_literal;
         before = if is_comment || sign.is_whitespace() { before } else { sign };
-        set
+        written
     };
-    text.chars().map(sign).collect()
+    bibtex.chars().map(sign).collect()
 }
 
-fn keys(entry: &Entry, field: &str) -> Vec<String> {
-    let text = entry.get(field).unwrap_or_default().format_verbatim();
-    text.split(',').map(|key| key.trim().into()).filter(|key: &String| !key.is_empty()).collect()
+fn parent_keys(entry: &Entry, field: &str) -> Vec<String> {
+    let list = entry.get(field).unwrap_or_default().format_verbatim();
+    list.split(',').map(|key| key.trim().into()).filter(|key: &String| !key.is_empty()).collect()
 }
 
 /// Returns the keys of all that are parents of others; they need not be complete.
-pub fn parents(all: &Bibliography) -> Vec<String> {
-    all.iter().flat_map(|entry| PARENTS.iter().flat_map(|field| keys(entry, field))).collect()
+pub fn parents(entries: &Bibliography) -> Vec<String> {
+    entries
+        .iter()
+        .flat_map(|entry| PARENTS.iter().flat_map(|field| parent_keys(entry, field)))
+        .collect()
 }
 
-/// Returns an entry with what it lacks from its parents, itself one of those that lie below it. The
-/// error is a message that follows its key.
-pub fn completed(entry: &Entry, all: &Bibliography, below: &[&str]) -> Result<Entry, String> {
-    let (mut full, way) = (entry.clone(), [below, &[&entry.key]].concat());
+/// Returns an entry with the fields that it inherits from its parents. The keys of the entries that
+/// inherit from it stand in `below`, by which a circle is found. The error is a message that
+/// follows its key.
+pub fn completed(entry: &Entry, entries: &Bibliography, below: &[&str]) -> Result<Entry, String> {
+    let (mut complete, keys_below) = (entry.clone(), [below, &[&entry.key]].concat());
     for field in PARENTS {
-        for key in keys(entry, field) {
-            let said = format!("has the {} {key}", field.trim());
-            let lost = || format!("{said}, which no entry has as its key; correct it");
-            let parent = all.get(&key).ok_or_else(lost)?;
-            if way.contains(&parent.key.as_str()) || way.len() > 8 {
-                let circle = format!("{} → {key}", way.join(" → "));
-                return Err(format!("{said}, which makes a circle, {circle}; end it"));
+        for key in parent_keys(entry, field) {
+            let link = format!("has the {} {key}", field.trim());
+            let no_such_entry = || format!("{link}, which no entry has as its key; correct it");
+            let parent = entries.get(&key).ok_or_else(no_such_entry)?;
+            if keys_below.contains(&parent.key.as_str()) || keys_below.len() > 8 {
+                let circle = format!("{} → {key}", keys_below.join(" → "));
+                return Err(format!("{link}, which makes a circle, {circle}; end it"));
             }
-            let own: Vec<String> = full.fields.keys().cloned().collect();
-            for (mut name, value) in completed(parent, all, &way)?.fields {
+            let own: Vec<String> = complete.fields.keys().cloned().collect();
+            for (mut name, value) in completed(parent, entries, &keys_below)?.fields {
                 // The title of a book is the booktitle of a chapter.
                 let before = match (&entry.entry_type, &parent.entry_type) {
                     (InBook | InCollection | InProceedings, Book | Collection | Proceedings) => {
@@ -121,13 +127,13 @@ pub fn completed(entry: &Entry, all: &Bibliography, below: &[&str]) -> Result<En
                 let alike = ALIKE.into_iter().find(|names| names.contains(&name.as_str()));
                 let is_own = |one: &&str| own.iter().any(|own| own == one);
                 if !alike.unwrap_or(&[&name]).iter().any(is_own) {
-                    full.fields.entry(name).or_insert(value);
+                    complete.fields.entry(name).or_insert(value);
                 }
             }
         }
-        full.remove(field);
+        complete.remove(field);
     }
-    Ok(full)
+    Ok(complete)
 }
 
 /// Fields that no list of references shows, besides those of an address on the web.
@@ -137,9 +143,9 @@ const NOT_SHOWN: &str = "abstract address addendum annotation annote archivepref
                          author date year";
 
 /// Refuses a field of an entry's own that its reference leaves out without a word.
-pub fn refuse_left_out(entry: &Entry, shown: &BTreeSet<String>) -> Result<(), String> {
+pub fn refuse_left_out(entry: &Entry, read_fields: &BTreeSet<String>) -> Result<(), String> {
     let is_known = |name: &str| {
-        shown.contains(name)
+        read_fields.contains(name)
             || NOT_SHOWN.split_whitespace().any(|known| known == name)
             || PARENTS.contains(&name)
     };
@@ -153,7 +159,7 @@ pub fn refuse_left_out(entry: &Entry, shown: &BTreeSet<String>) -> Result<(), St
 }
 
 /// Returns the year, or that of a date: `2011`, `2011-03`, `2011-03-01`, or a range with `/`.
-pub fn year(year: &str, date: &str) -> Result<String, String> {
+pub fn parse_year(year: &str, date: &str) -> Result<String, String> {
     let is_number =
         |part: &str, most: u32| part.parse().is_ok_and(|n: u32| (1..=most).contains(&n));
     let is_date = |date: &str| {

@@ -1,17 +1,15 @@
 //! Makes the card of a value, figure, equation or statement: all that is known of it.
 
-use super::claims::symbols;
-use super::document::{Inline, printed, words_and_maths};
+use super::claims::with_formulas;
+use super::document::{Inline, to_inlines, words_and_maths};
 use super::edition::Edition;
 use super::ledger::Ledger;
 use super::values::{Digits, Number, Provenance, Registry, Value};
 use crate::experiments::{AnyExperiment, Profile};
 use crate::print::{Style, print};
 use crate::project::Project;
-use crate::table::{DataFile, table_of};
+use crate::table::{DataFile, table_name};
 use serde_json::Value as Json;
-use std::collections::BTreeMap;
-use std::sync::Mutex;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Card {
@@ -25,7 +23,7 @@ pub struct Card {
 }
 
 impl Card {
-    fn of(id: String, title: Vec<Inline>) -> Self {
+    fn new(id: String, title: Vec<Inline>) -> Self {
         Card { id, title, lead: String::new(), rows: Vec::new() }
     }
 
@@ -52,21 +50,14 @@ impl Card {
     }
 
     fn experiment(&mut self, name: &str, cards: &Cards<'_>) {
-        let mut all = cards.experiments.iter();
-        let Some(experiment) = all.find(|experiment| experiment.name() == name) else { return };
-        let mut shared = cards.shared.lock().expect("no card panics");
-        let about = shared.entry(experiment.name()).or_insert_with(|| {
-            let mut card = Card::of(String::new(), Vec::new());
-            card.item("experiment", &experiment.item(), cards.project);
-            let profile = cards.values.profile().unwrap_or(Profile::Full);
-            for (i, setting) in
-                settings(&experiment.parameters(profile).unwrap_or_default()).iter().enumerate()
-            {
-                card.words(if i == 0 { "its parameters" } else { "" }, setting);
-            }
-            card
-        });
-        self.rows.extend_from_slice(&about.rows);
+        let mut experiments = cards.experiments.iter();
+        let Some(experiment) = experiments.find(|one| one.name() == name) else { return };
+        self.item("experiment", &experiment.item(), cards.project);
+        let profile = cards.values.profile().unwrap_or(Profile::Full);
+        let parameters = experiment.parameters(profile).unwrap_or_default();
+        for (number, setting) in settings(&parameters).iter().enumerate() {
+            self.words(if number == 0 { "its parameters" } else { "" }, setting);
+        }
     }
 }
 
@@ -77,8 +68,6 @@ pub struct Cards<'a> {
     pub project: &'a Project,
     /// Experiments, for the parameters that cards of their results show.
     pub experiments: &'a [&'static dyn AnyExperiment],
-    /// What is shown of each experiment, by its name, once it was.
-    pub shared: Mutex<BTreeMap<&'static str, Card>>,
 }
 
 impl Cards<'_> {
@@ -94,7 +83,7 @@ impl Cards<'_> {
         }
     }
 
-    /// All ids, in the order values, figures, equations, claims.
+    /// Returns all ids, in the order values, figures, equations, statements.
     pub fn ids(&self) -> Vec<String> {
         let values = self.values.iter().map(|value| value.id.clone());
         let figures = self.ledger.figures.iter().map(|figure| figure.label.clone());
@@ -117,26 +106,27 @@ impl Cards<'_> {
         if lower.is_empty() {
             return Vec::new();
         }
-        let mut found = self.ids();
-        found.retain(|id| id.to_lowercase().contains(&lower));
-        if found.is_empty() {
-            let digits = self.values.iter().filter(|value| value.plain().starts_with(&asked));
-            found.extend(digits.map(|value| value.id.clone()));
+        let mut ids = self.ids();
+        ids.retain(|id| id.to_lowercase().contains(&lower));
+        if ids.is_empty() {
+            let digits =
+                self.values.iter().filter(|value| value.to_plain_text().starts_with(&asked));
+            ids.extend(digits.map(|value| value.id.clone()));
         }
-        found
+        ids
     }
 
     fn value(&self, id: &str) -> Option<Card> {
         let value = self.values.get(id)?;
-        let mut title = printed(&print(&value.number, Style::default()));
+        let mut title = to_inlines(&print(&value.number, Style::default()));
         if !value.unit.is_empty() {
             title.push(Inline::Text("\u{a0}".into()));
             title.extend(words_and_maths(&value.unit));
         }
-        let mut card = Card { lead: lead(value), ..Card::of(value.id.clone(), title) };
+        let mut card = Card { lead: first_sentence(value), ..Card::new(value.id.clone(), title) };
         if matches!(value.number, Number::Real { .. }) {
             let full = Style { digits: Some(Digits::Full), ..Style::default() };
-            card.words("in full", &print(&value.number, full).plain());
+            card.words("in full", &print(&value.number, full).to_plain_text());
         }
         if let Provenance::Ensemble { realisations, standard_error, .. } = &value.kind {
             card.words("standard error", &standard_error.to_string());
@@ -150,11 +140,11 @@ impl Cards<'_> {
         card.item("computed by", &value.source, self.project);
         let home = self.ledger.equations.iter().find(|equation| equation.home == value.source);
         if let Some(number) = home.map(|equation| equation.number) {
-            let (to, shown) = (format!("eq:{number}"), format!("Eq.\u{a0}({number})"));
-            card.row("equation", vec![Inline::Reference { to, within: None, shown }]);
+            let (to, label) = (format!("eq:{number}"), format!("Eq.\u{a0}({number})"));
+            card.row("equation", vec![Inline::Reference { to, within: None, label }]);
         }
         let mut data = vec!["values.json".to_string()];
-        data.extend(table_of(&value.id).map(|t| format!("data/{}", DataFile::name_of(t))));
+        data.extend(table_name(&value.id).map(|t| format!("data/{}", DataFile::file_name(t))));
         card.row("data", links(&data));
         card.row("id", vec![Inline::Code(value.id.clone())]);
         card.experiment(&value.experiment, self);
@@ -165,11 +155,12 @@ impl Cards<'_> {
     }
 
     fn figure(&self, asked: &str) -> Option<Card> {
-        let is = |label: &str| label.to_lowercase() == asked;
+        let is_asked = |label: &str| label.to_lowercase() == asked;
         let mut figures = self.ledger.figures.iter();
-        let figure = figures.find(|f| is(&f.label) || is(&format!("fig:{}", f.number)))?;
+        let figure =
+            figures.find(|f| is_asked(&f.label) || is_asked(&format!("fig:{}", f.number)))?;
         let title = vec![Inline::Text(figure.title.clone())];
-        let mut card = Card::of(figure.label.clone(), title);
+        let mut card = Card::new(figure.label.clone(), title);
         card.words("shows", &figure.description);
         card.row("picture", links([&figure.picture]));
         card.row("data", links(&figure.data));
@@ -184,7 +175,7 @@ impl Cards<'_> {
     fn equation(&self, number: u32) -> Option<Card> {
         let equation = self.ledger.equations.iter().find(|equation| equation.number == number)?;
         let title = words_and_maths(&equation.what);
-        let mut card = Card::of(format!("eq:{number}"), title);
+        let mut card = Card::new(format!("eq:{number}"), title);
         card.lead = format!("Equation ({number}).");
         card.words("stands in", &format!("Sec. {}", equation.section));
         card.item("home", &equation.home, self.project);
@@ -199,40 +190,40 @@ impl Cards<'_> {
 
     fn claim(&self, id: &str) -> Option<Card> {
         let claim = self.ledger.claims.iter().find(|claim| claim.id == id)?;
-        let title = words_and_maths(&symbols(&claim.statement));
-        let mut card = Card::of(format!("claim:{id}"), title);
+        let title = words_and_maths(&with_formulas(&claim.statement));
+        let mut card = Card::new(format!("claim:{id}"), title);
         let words = claim.verdict.words();
         let [first, rest] = [words.get(..1), words.get(1..)].map(Option::unwrap_or_default);
         let why = claim.difference().map_or_else(String::new, |why| format!(" ({why})"));
         card.lead = format!("{}{rest}{why}.", first.to_uppercase());
-        card.words("paper", &symbols(&claim.expected));
-        card.words("here", &symbols(&claim.found.to_string()));
-        card.words("tolerance", &symbols(&claim.tolerance.to_string()));
-        card.words("because", &symbols(&claim.reason));
-        card.words("note", &symbols(&claim.note.to_string()));
+        card.words("paper", &with_formulas(&claim.expected));
+        card.words("here", &with_formulas(&claim.found.to_string()));
+        card.words("tolerance", &with_formulas(&claim.tolerance.to_string()));
+        card.words("because", &with_formulas(&claim.reason));
+        card.words("note", &with_formulas(&claim.note.to_string()));
         card.words("stands in", &claim.place);
         card.item("judged by", &(self.edition.judged_by)(&claim.id), self.project);
-        let (to, shown) = (card.id.clone(), "the row of this statement".into());
-        card.row("ledger", vec![Inline::Reference { to, within: None, shown }]);
+        let (to, label) = (card.id.clone(), "the row of this statement".into());
+        card.row("ledger", vec![Inline::Reference { to, within: None, label }]);
         card.repeat(&format!("check {}", claim.id), self.project);
         Some(card)
     }
 }
 
-fn link(to: &str, shown: Inline) -> Inline {
-    Inline::Link { to: to.into(), shown: vec![shown] }
+fn link(to: &str, words: Inline) -> Inline {
+    Inline::Link { to: to.into(), words: vec![words] }
 }
 
 pub(super) fn links<'a>(paths: impl IntoIterator<Item = &'a String>) -> Vec<Inline> {
-    let mut out = Vec::new();
+    let mut links = Vec::new();
     for path in paths {
-        if !out.is_empty() {
-            out.push(Inline::Text(", ".into()));
+        if !links.is_empty() {
+            links.push(Inline::Text(", ".into()));
         }
         let name = path.rsplit('/').next().unwrap_or(path);
-        out.push(link(path, Inline::Text(name.into())));
+        links.push(link(path, Inline::Text(name.into())));
     }
-    out
+    links
 }
 
 /// Makes a link to the line of an item of the source; only its path if there is no such file.
@@ -240,16 +231,16 @@ pub(super) fn link_to_line(item: &str, project: &Project) -> Inline {
     let code = Inline::Code(item.into());
     match project.sources.place(item) {
         Some((file, Some(line))) => {
-            let shown = vec![code, Inline::Text(format!(", line {line}"))];
-            Inline::Link { to: format!("../{file}#L{line}"), shown }
+            let words = vec![code, Inline::Text(format!(", line {line}"))];
+            Inline::Link { to: format!("../{file}#L{line}"), words }
         }
         Some((file, None)) => link(&format!("../{file}"), code),
         None => code,
     }
 }
 
-/// What the number means, then what kind of number it is, and where it comes from.
-fn lead(value: &Value) -> String {
+/// Says what the number means, then what kind of number it is and where it comes from.
+fn first_sentence(value: &Value) -> String {
     let Some(first) = value.note.chars().next() else { return kind(value) };
     // A name as σ begins no sentence.
     let meaning = match value.note.split_at(first.len_utf8()) {
@@ -260,7 +251,7 @@ fn lead(value: &Value) -> String {
 }
 
 fn kind(value: &Value) -> String {
-    let what = match &value.kind {
+    let computed = match &value.kind {
         Provenance::Exact => "Computed exactly".into(),
         Provenance::Deterministic => "Computed without chance".into(),
         Provenance::Ensemble { realisations: 0, .. } => {
@@ -273,33 +264,33 @@ fn kind(value: &Value) -> String {
         Provenance::Measured => "A number measured once, and an input since".into(),
     };
     match value.experiment.as_str() {
-        "" => format!("{what}."),
-        name => format!("{what}, from the experiment “{}”.", name.replace('_', " ")),
+        "" => format!("{computed}."),
+        name => format!("{computed}, from the experiment “{}”.", name.replace('_', " ")),
     }
 }
 
 /// Writes each parameter, the seed among them: `runs: 3`, `seed: 7`. A nested field has both names;
 /// one with several values lists them, or the first and the last of more than eight.
 fn settings(parameters: &Json) -> Vec<String> {
-    let mut all = Vec::new();
-    collect("", parameters, &mut all);
+    let mut settings = Vec::new();
+    collect("", parameters, &mut settings);
     let listed = |(name, values): (String, Vec<String>)| match values.as_slice() {
         [first, .., last] if values.len() > 8 => {
             format!("{name}: {} from {first} to {last}", values.len())
         }
         few => format!("{name}: {}", few.join(", ")),
     };
-    all.into_iter().map(listed).collect()
+    settings.into_iter().map(listed).collect()
 }
 
-fn collect(name: &str, value: &Json, into: &mut Vec<(String, Vec<String>)>) {
-    let shown = match value {
+fn collect(name: &str, value: &Json, settings: &mut Vec<(String, Vec<String>)>) {
+    let written = match value {
         Json::Null => return,
-        Json::Array(list) => return list.iter().for_each(|one| collect(name, one, into)),
+        Json::Array(list) => return list.iter().for_each(|one| collect(name, one, settings)),
         Json::Object(fields) => {
             for (field, value) in fields {
                 let whole = format!("{name} {}", field.replace('_', " "));
-                collect(whole.trim_start(), value, into);
+                collect(whole.trim_start(), value, settings);
             }
             return;
         }
@@ -307,9 +298,9 @@ fn collect(name: &str, value: &Json, into: &mut Vec<(String, Vec<String>)>) {
         Json::Number(number) if number.is_f64() => number.as_f64().unwrap_or(f64::NAN).to_string(),
         other => other.to_string(),
     };
-    match into.iter_mut().find(|(known, _)| known == name) {
-        Some((_, values)) if values.contains(&shown) => (),
-        Some((_, values)) => values.push(shown),
-        None => into.push((name.into(), vec![shown])),
+    match settings.iter_mut().find(|(known, _)| known == name) {
+        Some((_, values)) if values.contains(&written) => (),
+        Some((_, values)) => values.push(written),
+        None => settings.push((name.into(), vec![written])),
     }
 }

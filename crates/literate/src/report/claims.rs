@@ -8,8 +8,8 @@ use serde_json::json;
 use std::collections::BTreeMap;
 
 /// Returns the fields of a check as Markdown for templates, its numbers printed with their digits.
-pub fn row(check: &Check) -> serde_json::Value {
-    let words = |text: &str| markdown::escaped(&symbols(text));
+pub fn to_row(check: &Check) -> serde_json::Value {
+    let words = |source: &str| markdown::escape_text(&with_formulas(source));
     json!({
         "id": check.id,
         "kind": check.kind,
@@ -19,39 +19,39 @@ pub fn row(check: &Check) -> serde_json::Value {
         "place": words(&check.place),
         "statement": words(&check.statement),
         "expected": words(&check.expected),
-        "found": sentence(&check.found),
-        "tolerance": sentence(&check.tolerance),
+        "found": to_markdown(&check.found),
+        "tolerance": to_markdown(&check.tolerance),
         // The reason stands in emphasis, in which GitHub renders no formula.
-        "reason": markdown::escaped(&check.reason),
+        "reason": markdown::escape_text(&check.reason),
         "basis": check.basis.words(),
         "verdict": check.verdict.words(),
-        "note": sentence(&check.note),
+        "note": to_markdown(&check.note),
     })
 }
 
-fn sentence(text: &Text) -> String {
+fn to_markdown(text: &Text) -> String {
     let piece = |piece: &Number| match piece {
-        Number::Text(words) => markdown::escaped(&symbols(words)),
-        number => markdown::inlines(&super::document::printed(&print(number, Style::default()))),
+        Number::Text(words) => markdown::escape_text(&with_formulas(words)),
+        number => markdown::inlines(&super::document::to_inlines(&print(number, Style::default()))),
     };
     text.0.iter().map(piece).collect()
 }
 
 /// Makes formulas of variables such as n, p_crit or k*; ties a percent sign to its number.
-pub(super) fn symbols(text: &str) -> String {
-    if text.contains('$') {
-        return text.to_string();
+pub(super) fn with_formulas(sentence: &str) -> String {
+    if sentence.contains('$') {
+        return sentence.to_string();
     }
     let is_part = |c: char| c.is_alphanumeric() || c == '_' || c == '*';
-    let chars: Vec<char> = text.chars().collect();
+    let chars: Vec<char> = sentence.chars().collect();
     let words: Vec<&[char]> = chars.chunk_by(|a, b| is_part(*a) == is_part(*b)).collect();
     // (d) is a panel, and no variable.
-    let is_panel = |at: usize| {
-        let around = words.get(at.wrapping_sub(1)..at + 2);
+    let is_panel = |index: usize| {
+        let around = words.get(index.wrapping_sub(1)..index + 2);
         matches!(around, Some([[.., '('], ['a'..='f'], [')', ..]]))
     };
-    let word = |(at, word): (usize, &&[char])| {
-        symbol(word).filter(|_| !is_panel(at)).unwrap_or_else(|| word.iter().collect())
+    let word = |(index, word): (usize, &&[char])| {
+        symbol(word).filter(|_| !is_panel(index)).unwrap_or_else(|| word.iter().collect())
     };
     words.iter().enumerate().map(word).collect::<String>().replace(" %", "\u{a0}%")
 }
@@ -79,10 +79,10 @@ fn symbol(word: &[char]) -> Option<String> {
 }
 
 /// Returns the printed numbers as values: `paper` (parameters) and `printed` (statements).
-pub fn printed(published: &Published) -> Vec<Value> {
+pub fn printed_values(published: &Published) -> Vec<Value> {
     let chosen = published.parameters.iter().map(|p| {
-        let text = p.value.to_string();
-        let decimals = text.split_once('.').map_or(0, |(_, after)| after.len());
+        let decimal = p.value.to_string();
+        let decimals = decimal.split_once('.').map_or(0, |(_, after)| after.len());
         Value::printed(format!("paper.{}", p.id), p.value, decimals, &p.place)
     });
     let stated = published.statements.iter().filter_map(|s| {
@@ -106,9 +106,9 @@ pub fn scorecard(claims: &[Check]) -> Vec<Value> {
     let verdicts = Verdict::ALL.into_iter().zip(score(statements()));
     let verdicts = verdicts.map(|(verdict, count)| value(verdict.words().into(), count));
     let bases = Basis::ALL.into_iter().flat_map(|basis| {
-        let of = score(statements().filter(|claim| claim.basis == basis));
-        let all = value(format!("{}_of", basis.words()), of.iter().sum());
-        [value(basis.words().into(), of[0]), all]
+        let counts = score(statements().filter(|claim| claim.basis == basis));
+        let total = value(format!("{}_of", basis.words()), counts.iter().sum());
+        [value(basis.words().into(), counts[0]), total]
     });
     let mut words = BTreeMap::new();
     for claim in statements().filter(|claim| !claim.why.is_empty()) {
@@ -125,14 +125,14 @@ pub fn scorecard(claims: &[Check]) -> Vec<Value> {
         |readings: fn(&Vec<bool>) -> bool| sentences.values().filter(|s| readings(s)).count();
     let whole = with(|readings| !readings.contains(&false));
     let split = with(|readings| readings.contains(&true) && readings.contains(&false));
-    let all = [
+    let total = [
         value("total".into(), judged.len()),
         value("sentences".into(), sentences.len()),
         value("sentences_reproduced".into(), whole),
         value("sentences_split".into(), split),
         value("definitions".into(), definitions.len()),
     ];
-    verdicts.chain(all).chain(bases).chain(words).collect()
+    verdicts.chain(total).chain(bases).chain(words).collect()
 }
 
 #[cfg(test)]
@@ -142,13 +142,13 @@ mod tests {
 
     #[test]
     fn symbols_with_an_index_or_a_star_are_formulas() {
-        let text = "At p_crit k* of φ_N(k) is fig_3_b, 2*3, a_ and σ_x.";
+        let sentence = "At p_crit k* of φ_N(k) is fig_3_b, 2*3, a_ and σ_x.";
         let set = r"At $p_{\mathrm{crit}}$ $k^*$ of $\phi_N$($k$) is fig_3_b, 2*3, a_ and $σ_x$.";
-        assert_eq!(symbols(text), set);
-        let text = crate::text!("k* at {}.", with_error(0.11652, 0.0004));
-        assert_eq!(sentence(&text), "$k^*$ at 0.1165(4).");
-        let text = crate::text!("{} and {}", -3.25, 1.2e-5);
-        assert_eq!(sentence(&text), r"−3.25 and $1.2\times10^{-5}$");
+        assert_eq!(with_formulas(sentence), set);
+        let sentence = crate::text!("k* at {}.", with_error(0.11652, 0.0004));
+        assert_eq!(to_markdown(&sentence), "$k^*$ at 0.1165(4).");
+        let sentence = crate::text!("{} and {}", -3.25, 1.2e-5);
+        assert_eq!(to_markdown(&sentence), r"−3.25 and $1.2\times10^{-5}$");
     }
 
     #[test]
@@ -163,7 +163,7 @@ mod tests {
         let checks = checks.into_iter().chain([(Definition, "", true)]);
         let checks: Vec<Check> = checks.map(|(kind, why, holds)| check(kind, why, holds)).collect();
         assert_eq!([0, 1].map(|i: usize| checks[i].difference()), [Some("misprint"), None]);
-        assert_eq!(row(&checks[2])["kind"], "definition");
+        assert_eq!(to_row(&checks[2])["kind"], "definition");
         let score = scorecard(&checks);
         let count = |id: &str| score.iter().find(|value| value.id == id).unwrap().number.clone();
         let mut readings = vec![checks[0].clone(), checks[1].clone()];

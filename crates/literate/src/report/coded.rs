@@ -9,7 +9,7 @@ use crate::claims::Kind;
 use crate::figures::plain;
 use crate::input::one_line;
 use crate::table::Table;
-use std::collections::{BTreeSet, HashSet};
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 /// Words of code with numbers that have no reason, up to what is computed between them.
 struct Typed {
@@ -27,7 +27,7 @@ pub fn check(input: &Input<'_>, declared: &Declared) -> Vec<Error> {
     let code = code.map(|(path, text)| (path.to_string(), *text));
     let mut numbered = Vec::new();
     for (text, file, with_words) in given(input) {
-        let mut numerals = lint::words(&text, 0..text.len(), declared);
+        let mut numerals = lint::find_numbers(&text, 0..text.len(), declared);
         let is_meant = |numeral: &str| with_words || numeral.starts_with(char::is_numeric);
         numerals.retain(|(at, one)| is_meant(one) && is_number(&text, *at, one));
         if !numerals.is_empty() {
@@ -39,51 +39,63 @@ pub fn check(input: &Input<'_>, declared: &Declared) -> Vec<Error> {
     let wanted: HashSet<&str> =
         parts.filter_map(|mut parts| parts.find(|it| !it.is_empty())).collect();
     let typed = code.chain(texts).flat_map(|(path, text)| typed(&path, text, &wanted));
-    let (typed, mut errors): (Vec<Typed>, _) = (typed.collect(), Vec::new());
+    let typed: Vec<Typed> = typed.collect();
+    let mut by_numeral: HashMap<&str, Vec<&Typed>> = HashMap::new();
+    for typed in &typed {
+        for numeral in &typed.numerals {
+            by_numeral.entry(numeral).or_default().push(typed);
+        }
+    }
+    let mut errors = Vec::new();
     for (text, file, numerals) in &numbered {
         // Numbers without words count where they are drawn.
         let file = file.filter(|_| text.len() > 1).map(|file| &input.project.sources.files[file]);
         let quoted = file.filter(|(_, code)| code.contains(&format!("\"{text}\"")));
         for (at, numeral) in numerals {
-            let found = typed.iter().find(|typed| typed.has(text, *at, numeral));
-            let place = found.map(|typed| &*typed.place).or(quoted.map(|(path, _)| *path));
+            let mut typed = by_numeral.get(&**numeral).into_iter().flatten();
+            let typed = typed.find(|typed| typed.cover(text, *at));
+            let place = typed.map(|typed| &*typed.place).or(quoted.map(|(path, _)| *path));
             let place = place.map(|place| format!("{place}: {:?}", one_line(text, 60)));
-            errors.extend(place.map(|place| Error::HardCoded(numeral.clone()).at(place)));
+            errors.extend(place.map(|place| Error::HardCoded(numeral.clone()).with_place(place)));
         }
     }
     errors
 }
 
-/// Returns what stands between quotation marks and braces, in strings and elsewhere, with a number
-/// that begins with one of the wanted words or runs of digits.
+/// Returns what stands between quotation marks and braces, in strings and elsewhere, with letters
+/// and a number that begins with one of the wanted words or runs of digits.
 fn typed(path: &str, code: &str, wanted: &HashSet<&str>) -> Vec<Typed> {
     let code = code.split("#[cfg(test)]\nmod ").next().unwrap_or_default();
-    let (mut found, mut line) = (Vec::new(), 1);
-    for piece in code.split(['"', '{', '}']) {
-        let mut words = piece.split(|c: char| !c.is_alphanumeric());
-        let in_digits = |word: &str| {
-            let has_digit = word.bytes().any(|byte| byte.is_ascii_digit());
-            has_digit && word.split(|c: char| !c.is_ascii_digit()).any(|run| wanted.contains(run))
-        };
-        if words.any(|word| wanted.contains(word) || in_digits(word)) {
+    let wants_words = wanted.iter().any(|word| word.starts_with(char::is_alphabetic));
+    let (mut typed, mut line) = (Vec::new(), 1);
+    for piece in code.split('"').flat_map(|piece| piece.split('{')).flat_map(|it| it.split('}')) {
+        let may_have_number = wants_words || piece.bytes().any(|byte| byte.is_ascii_digit());
+        if may_have_number && has_one_of(piece, wanted) && piece.contains(char::is_alphabetic) {
             let text = piece.replace(r"\\", r"\");
-            let numerals = lint::words(&text, 0..text.len(), &Declared::default());
+            let numerals = lint::find_numbers(&text, 0..text.len(), &Declared::default());
             let numerals = numerals.into_iter().map(|(_, numeral)| numeral).collect();
             let (place, words) = (format!("{path}:{line}"), bare(&text.replace('\\', "")));
-            found.push(Typed { place, words, numerals });
+            typed.push(Typed { place, words, numerals });
         }
         line += piece.matches('\n').count();
     }
-    found
+    typed
+}
+
+/// Returns whether a text has one of these words, or runs of digits within a word.
+fn has_one_of(text: &str, words: &HashSet<&str>) -> bool {
+    text.split(|c: char| !c.is_alphanumeric()).any(|word| {
+        let has_digit = word.bytes().any(|byte| byte.is_ascii_digit());
+        let mut runs = word.split(|c: char| !c.is_ascii_digit());
+        words.contains(word) || has_digit && runs.any(|run| words.contains(run))
+    })
 }
 
 impl Typed {
-    /// Returns whether the number at this place of a text stands in these words.
-    fn has(&self, text: &str, at: usize, numeral: &str) -> bool {
+    /// Returns whether these words stand in a text, around this place.
+    fn cover(&self, text: &str, at: usize) -> bool {
         let covers = |(begin, words): (usize, &str)| (begin..begin + words.len()).contains(&at);
-        self.numerals.iter().any(|typed| typed == numeral)
-            && text.match_indices(&self.words).any(covers)
-            && self.words.contains(char::is_alphabetic)
+        self.words.len() <= text.len() && text.match_indices(&self.words).any(covers)
     }
 }
 

@@ -6,7 +6,7 @@
 use super::edition::Document;
 use super::error::Error;
 use super::tex;
-use crate::print::Shown;
+use crate::print::Printed;
 use pulldown_cmark::Alignment;
 
 /// A block, with ids such as `sec:protocol`, and numbers as "2.1", which labels give.
@@ -41,7 +41,7 @@ pub enum Block {
     Quote(Vec<Block>),
     Code {
         language: String,
-        text: String,
+        code: String,
     },
     /// A piece of the source: the path of the item, its file, and a link to that.
     Listing {
@@ -51,7 +51,7 @@ pub enum Block {
         item: String,
         file: String,
         origin: Vec<Inline>,
-        text: String,
+        code: String,
     },
     /// A function that readers of a page can run, by its name.
     Lab {
@@ -85,10 +85,10 @@ pub struct Reference {
 }
 
 impl Reference {
-    pub fn text(&self) -> Vec<Inline> {
-        let mut text = vec![Inline::Text(format!("{} ({}).", self.authors, self.year))];
-        text.extend(self.rest.iter().cloned());
-        text
+    pub fn to_inlines(&self) -> Vec<Inline> {
+        let mut inlines = vec![Inline::Text(format!("{} ({}).", self.authors, self.year))];
+        inlines.extend(self.rest.iter().cloned());
+        inlines
     }
 }
 
@@ -111,12 +111,12 @@ pub enum Inline {
     },
     Value {
         id: String,
-        shown: Shown,
+        printed: Printed,
     },
     /// A link out of the report, or to a file next to it.
     Link {
         to: String,
-        shown: Vec<Inline>,
+        words: Vec<Inline>,
     },
     /// References `[@fig:3; @fig:8]` and citations `[@rice1945]`, or one of them without brackets
     /// in a sentence, until they are resolved.
@@ -128,7 +128,7 @@ pub enum Inline {
     Reference {
         to: String,
         within: Option<Document>,
-        shown: String,
+        label: String,
     },
     /// A place that can be referred to, `[!claim:rise]`; shows its number.
     Anchor {
@@ -143,21 +143,21 @@ pub struct Formula(pub Vec<Part>);
 #[derive(Clone, Debug, PartialEq)]
 pub enum Part {
     Tex(String),
-    Value { id: String, shown: Shown },
+    Value { id: String, printed: Printed },
 }
 
 impl Formula {
     /// Returns the whole formula as TeX, in which `value` writes the values.
-    pub fn tex(&self, value: impl Fn(&str, &Shown) -> String) -> String {
+    pub fn to_tex_with(&self, value: impl Fn(&str, &Printed) -> String) -> String {
         let part = |part: &Part| match part {
             Part::Tex(tex) => tex.clone(),
-            Part::Value { id, shown } => value(id, shown),
+            Part::Value { id, printed } => value(id, printed),
         };
         self.0.iter().map(part).collect()
     }
 
-    pub fn digits(&self) -> String {
-        self.tex(|_, shown| shown.tex())
+    pub fn to_tex(&self) -> String {
+        self.to_tex_with(|_, printed| printed.to_tex())
     }
 }
 
@@ -168,9 +168,9 @@ impl From<&str> for Formula {
 }
 
 /// Returns a printed value as text, with its formulas, or as a formula where it has a power of ten.
-pub fn printed(shown: &Shown) -> Vec<Inline> {
-    let numeral = match shown {
-        Shown::Words(words) => {
+pub fn to_inlines(printed: &Printed) -> Vec<Inline> {
+    let numeral = match printed {
+        Printed::Words(words) => {
             let line = in_one_line(words);
             return if has_formulas(&line) {
                 words_and_maths(&line)
@@ -178,25 +178,26 @@ pub fn printed(shown: &Shown) -> Vec<Inline> {
                 vec![Inline::Text(line)]
             };
         }
-        Shown::Number(numeral) => numeral,
+        Printed::Number(numeral) => numeral,
     };
-    let percent = if numeral.percent { "\u{a0}%" } else { "" };
-    match numeral.tex_power() {
+    let percent = if numeral.in_percent { "\u{a0}%" } else { "" };
+    match numeral.power_to_tex() {
         Some(power) => vec![Inline::Maths(power.as_str().into()), Inline::Text(percent.into())],
         None => vec![Inline::Text(numeral.signed("−") + percent)],
     }
 }
 
-/// Whether words from data are written with formulas, `at $h = 0.3$`: each of their dollar signs
-/// begins one behind a blank or ends one before no letter. Else, as in `^a$|^b$`, they are signs.
+/// Returns whether words from data are written with formulas, `at $h = 0.3$`: each of their dollar
+/// signs begins one behind a blank or ends one before no letter. Otherwise, as in `^a$|^b$`, they
+/// are signs.
 pub fn has_formulas(words: &str) -> bool {
     let parts: Vec<&str> = words.split('$').collect();
-    let is_formula = |at: usize| {
-        let [before, tex, after] = [at - 1, at, at + 1].map(|at| parts[at]);
-        let opens = before.ends_with([' ', '(', '[', '“']) || before.is_empty() && at == 1;
+    let is_formula = |index: usize| {
+        let [before, tex, after] = [index - 1, index, index + 1].map(|index| parts[index]);
+        let opens = before.ends_with([' ', '(', '[', '“']) || before.is_empty() && index == 1;
         let closes =
             !tex.is_empty() && tex.trim() == tex && !after.starts_with(char::is_alphanumeric);
-        opens && closes && tex::refused(tex).is_none()
+        opens && closes && tex::unsupported(tex).is_none()
     };
     parts.len() % 2 == 1 && parts.len() > 1 && (1..parts.len()).step_by(2).all(is_formula)
 }
@@ -207,37 +208,38 @@ pub fn in_one_line(words: &str) -> String {
 
 /// Splits a text of an author, `3 $\times$ 4`, into words and formulas. A dollar sign alone, and
 /// one that Markdown would not take for mathematics, as in `$5 and $6`, is a word.
-pub fn words_and_maths(text: &str) -> Vec<Inline> {
-    let formula = |text: &str| {
-        text.match_indices('$').find_map(|(at, _)| {
-            let (tex, beyond) = text[at + 1..].split_once('$')?;
+pub fn words_and_maths(words: &str) -> Vec<Inline> {
+    let formula = |words: &str| {
+        words.match_indices('$').find_map(|(begin, _)| {
+            let (tex, beyond) = words[begin + 1..].split_once('$')?;
             let fits = !tex.is_empty() && tex.trim() == tex;
             let is_price = beyond.starts_with(|c: char| c.is_ascii_digit());
-            (fits && !is_price).then_some((at, tex.len()))
+            (fits && !is_price).then_some((begin, tex.len()))
         })
     };
-    let (mut out, mut rest) = (Vec::new(), text);
-    while let Some((at, length)) = formula(rest) {
-        out.push(Inline::Text(rest[..at].into()));
-        out.push(Inline::Maths(rest[at + 1..][..length].into()));
-        rest = &rest[at + length + 2..];
+    let (mut inlines, mut rest) = (Vec::new(), words);
+    while let Some((begin, length)) = formula(rest) {
+        inlines.push(Inline::Text(rest[..begin].into()));
+        inlines.push(Inline::Maths(rest[begin + 1..][..length].into()));
+        rest = &rest[begin + length + 2..];
     }
-    out.push(Inline::Text(rest.into()));
-    out.retain(|piece| *piece != Inline::Text(String::new()));
-    out
+    inlines.push(Inline::Text(rest.into()));
+    inlines.retain(|piece| *piece != Inline::Text(String::new()));
+    inlines
 }
 
 pub fn title(blocks: &[Block]) -> Result<&[Inline], Error> {
-    let found = blocks.iter().find_map(|block| match block {
+    let title = blocks.iter().find_map(|block| match block {
         Block::Heading { level: 1, text, .. } => Some(text.as_slice()),
         _ => None,
     });
-    found.ok_or_else(|| Error::Markup("a report begins with its title, `# Words`".into()))
+    title.ok_or_else(|| Error::Markup("a report begins with its title, `# Words`".into()))
 }
 
-/// Whether it is the heading of the abstract, which extends to the next heading or figure.
+/// Returns whether a block is the heading of the abstract, which extends to the next heading or
+/// figure.
 pub fn is_abstract(block: &Block) -> bool {
-    matches!(block, Block::Heading { text, .. } if plain(text) == "Abstract")
+    matches!(block, Block::Heading { text, .. } if to_plain_text(text) == "Abstract")
 }
 
 /// Returns the id of a heading on a page: its own, or `sec-2-1` by its number, or its words.
@@ -246,7 +248,7 @@ pub fn heading_place(id: Option<&str>, number: Option<&str>, words: &[Inline]) -
         (Some(id), _) => place_on_page(id),
         (None, Some(number)) => place_on_page(&format!("sec:{number}")),
         (None, None) => {
-            let words = plain(words).to_lowercase();
+            let words = to_plain_text(words).to_lowercase();
             let words = words.split(|c: char| !c.is_ascii_alphanumeric());
             words.filter(|word| !word.is_empty()).collect::<Vec<_>>().join("-")
         }
@@ -258,32 +260,34 @@ pub fn place_on_page(id: &str) -> String {
     place(id).replace([':', '.'], "-")
 }
 
-/// Writes what no address has, and brackets without their pairs, as `%7C`: every format has such
-/// signs for itself.
+/// Encodes an address as a link needs it: other characters, and brackets without their pairs, as
+/// `%7C`, since formats read them as markup.
 pub fn address(to: &str) -> String {
     let deeper =
         |depth: i32, c| Some(depth + i32::from(c == '(') - i32::from(c == ')')).filter(|d| *d >= 0);
     let in_pairs = to.chars().try_fold(0, deeper) == Some(0);
     let is_own = |c: char| c.is_ascii_alphanumeric() || "-._~:/?#[]@!$&'*+,;=%".contains(c);
-    let mut out = String::new();
+    let mut encoded = String::new();
     for c in to.chars() {
         if is_own(c) || in_pairs && "()".contains(c) {
-            out.push(c);
+            encoded.push(c);
         } else {
-            out.extend(c.encode_utf8(&mut [0; 4]).bytes().map(|byte| format!("%{byte:02X}")));
+            encoded.extend(c.encode_utf8(&mut [0; 4]).bytes().map(|byte| format!("%{byte:02X}")));
         }
     }
-    out
+    encoded
 }
 
-/// Returns an id without signs that TeX or a page would read: a key may have them.
+/// Returns an id in which other characters than letters, digits and `:-_.` are replaced by their
+/// codes: TeX or a page would read them, and a key may have them.
 pub fn place(id: &str) -> String {
     let is_safe = |c: char| c.is_ascii_alphanumeric() || ":-_.".contains(c);
     let escaped = |c| if is_safe(c) { c.to_string() } else { format!("-{:x}", u32::from(c)) };
     id.chars().map(escaped).collect()
 }
 
-/// Whether a sentence continues from one paragraph to the next, with or after a displayed equation.
+/// Returns whether a sentence continues from one paragraph to the next, with or after a displayed
+/// equation.
 pub fn goes_on(before: &Block, next: &Block) -> bool {
     let (Block::Paragraph(before), Block::Paragraph(next)) = (before, next) else { return false };
     match (before.as_slice(), next.as_slice()) {
@@ -295,7 +299,7 @@ pub fn goes_on(before: &Block, next: &Block) -> bool {
     }
 }
 
-/// All running texts of a block, in reading order, nested ones too.
+/// Returns the running texts of a block, nested ones too, in reading order.
 fn texts(block: &mut Block) -> Vec<&mut Vec<Inline>> {
     match block {
         Block::Heading { text, .. } | Block::Paragraph(text) => vec![text],
@@ -333,7 +337,7 @@ fn rewrite_inlines(inlines: &mut Vec<Inline>, change: &mut impl FnMut(Inline) ->
             Inline::Emphasis(inner) | Inline::Strong(inner) | Inline::Raised(inner) => {
                 rewrite_inlines(inner, change);
             }
-            Inline::Link { shown, .. } => rewrite_inlines(shown, change),
+            Inline::Link { words, .. } => rewrite_inlines(words, change),
             _ => {}
         }
         inlines.extend(change(inline));
@@ -344,40 +348,40 @@ fn rewrite_inlines(inlines: &mut Vec<Inline>, change: &mut impl FnMut(Inline) ->
 /// where `top` is the path to the project; only its words are left if there is no such path.
 pub fn relative_link(inline: Inline, top: Option<&str>) -> Vec<Inline> {
     match inline {
-        Inline::Link { to, shown } if to.starts_with("../") => match top {
-            Some(top) => vec![Inline::Link { to: to.replacen("../", top, 1), shown }],
-            None => shown,
+        Inline::Link { to, words } if to.starts_with("../") => match top {
+            Some(top) => vec![Inline::Link { to: to.replacen("../", top, 1), words }],
+            None => words,
         },
         other => vec![other],
     }
 }
 
-/// The words alone, for alternative text and widths of columns.
-pub fn plain(inlines: &[Inline]) -> String {
-    words(inlines, &|tex| tex.into())
+/// Returns the words alone, with formulas in TeX, for alternative texts and widths of columns.
+pub fn to_plain_text(inlines: &[Inline]) -> String {
+    to_text(inlines, &|tex| tex.into())
 }
 
-/// The words for a terminal, mathematics among them.
-pub fn spelt(inlines: &[Inline]) -> String {
-    words(inlines, &tex::spell)
+/// Returns the words for a terminal, with formulas spelt in characters.
+pub fn to_spelt_text(inlines: &[Inline]) -> String {
+    to_text(inlines, &tex::spell)
 }
 
-fn words(inlines: &[Inline], maths: &dyn Fn(&str) -> String) -> String {
-    let mut out = String::new();
+fn to_text(inlines: &[Inline], maths: &dyn Fn(&str) -> String) -> String {
+    let mut text = String::new();
     for inline in inlines {
-        out += &match inline {
+        text += &match inline {
             Inline::Text(text) | Inline::Code(text) => text.clone(),
-            Inline::Maths(formula) | Inline::Display { formula, .. } => maths(&formula.digits()),
+            Inline::Maths(formula) | Inline::Display { formula, .. } => maths(&formula.to_tex()),
             Inline::Soft => " ".into(),
-            Inline::Reference { shown, .. } => shown.clone(),
+            Inline::Reference { label, .. } => label.clone(),
             Inline::Anchor { number, .. } => number.clone(),
-            Inline::Value { shown, .. } => words(&printed(shown), maths),
+            Inline::Value { printed, .. } => to_text(&to_inlines(printed), maths),
             Inline::Emphasis(inner) | Inline::Strong(inner) | Inline::Raised(inner) => {
-                words(inner, maths)
+                to_text(inner, maths)
             }
-            Inline::Link { shown, .. } => words(shown, maths),
+            Inline::Link { words: shown, .. } => to_text(shown, maths),
             Inline::Unresolved { .. } => String::new(),
         };
     }
-    out
+    text
 }

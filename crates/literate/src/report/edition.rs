@@ -24,7 +24,7 @@ pub struct Edition {
 }
 
 impl Edition {
-    /// An edition with this title and one document, [`Document::REPORT`].
+    /// Makes an edition with this title and one document, [`Document::REPORT`].
     pub fn new(title: &'static str) -> Self {
         Edition {
             title,
@@ -41,19 +41,20 @@ impl Edition {
         }
     }
 
-    /// What stands below the title of a document: authors and date, where it is printed.
+    /// Returns what stands below the title of a document that is printed: authors and date.
     pub(super) fn byline(&self, document: Document) -> String {
         let author = |author: &(&str, &str)| match author {
             (name, "") => name.to_string(),
             (name, affiliation) => format!("{name} ({affiliation})"),
         };
         let date = Some(self.date.to_string()).filter(|date| !date.is_empty());
-        let all = self.authors.iter().map(author).chain(date).collect::<Vec<_>>().join(", ");
-        if document.print.is_some() { all } else { String::new() }
+        let parts = self.authors.iter().map(author).chain(date).collect::<Vec<_>>().join(", ");
+        if document.print.is_some() { parts } else { String::new() }
     }
 
-    /// The authors as BibTeX takes them. A name that ends in a word without a capital, as that of a
-    /// group, stands in braces, or BibTeX would take its last word for the name of a family.
+    /// Writes the authors as BibTeX takes them. A name that ends in a word without a capital, as
+    /// that of a group, stands in braces, or BibTeX would take its last word for the name of a
+    /// family.
     pub(super) fn bibtex_authors(&self) -> String {
         let author = |(name, _): &(&str, _)| match name.rsplit(char::is_whitespace).next() {
             Some(last) if last.starts_with(char::is_lowercase) => format!("{{{name}}}"),
@@ -89,7 +90,8 @@ impl Document {
         repeats: false,
     };
 
-    /// Paths of its prose in the templates, in its order; none if there is no such file.
+    /// Returns the paths of its prose in the templates, in their order; there are none if it has no
+    /// file.
     pub fn files<'a>(&self, templates: &'a Templates) -> Vec<&'a str> {
         let (one, folder) = (format!("{}.md", self.prose), format!("{}/", self.prose));
         let is_prose =

@@ -1,9 +1,23 @@
 //! Names what can be wrong with a report, with the place where it can be corrected.
 
-use crate::input::one_line;
+use crate::input::{Place, one_line};
 use crate::table::nearest;
 
 const MAX_LENGTH: usize = 1000;
+
+/// What the prose writes and an error can name.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Thing {
+    /// An id that the prose gives, as `fig:3`.
+    Id(String),
+    Reference(String),
+    /// A link to an address.
+    Link(String),
+    /// A picture by its path.
+    Picture(String),
+    /// A formula by its TeX.
+    Formula(String),
+}
 
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
@@ -23,10 +37,10 @@ pub enum Error {
     #[error("{}; the page *Prose* of the manual of literate lists all markup", one_line(.0, 200))]
     Markup(String),
     #[error("{place}: {error}")]
-    At { place: String, error: Box<Error> },
-    /// Something that the prose names, by which its place is found.
-    #[error("{}", one_line(what, MAX_LENGTH))]
-    Named { thing: String, what: String },
+    At { place: Place, error: Box<Error> },
+    /// What is wrong with a thing in the prose, by which its place is found.
+    #[error("{}", one_line(problem, MAX_LENGTH))]
+    Named { thing: Thing, problem: String },
     #[error(
         "the character '{}' (U+{:04X}) is not known in LaTeX; write it as TeX between $ signs, or in words",
         one_line(&.0.to_string(), 1), u32::from(*.0)
@@ -35,9 +49,9 @@ pub enum Error {
     #[error(
         "the formula ${}$ cannot be shown: {}; write it differently",
         one_line(tex, 200),
-        one_line(what, 200)
+        one_line(problem, 200)
     )]
-    Maths { tex: String, what: String },
+    Maths { tex: String, problem: String },
     #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
     Several(Vec<Error>),
     #[error(
@@ -56,36 +70,46 @@ impl Error {
     pub(crate) fn twice(id: &str, first: &str, second: &str) -> Error {
         let [first, second] =
             [first, second].map(|item| if item.is_empty() { "a value" } else { item });
-        let what = "have this id; give one of them another";
-        Error::Template(format!("{id}: {first} and {second} {what}"))
+        let problem = "have this id; give one of them another";
+        Error::Template(format!("{id}: {first} and {second} {problem}"))
     }
 
     /// Something that the prose names and that is not there, with the most similar names.
     pub(crate) fn unknown<'a>(
-        thing: String,
-        what: String,
+        thing: Thing,
+        problem: String,
         names: impl IntoIterator<Item = &'a str>,
     ) -> Error {
-        let name = thing.trim_start_matches(['#', '@', '(', '!']);
+        let (Thing::Id(name)
+        | Thing::Reference(name)
+        | Thing::Link(name)
+        | Thing::Picture(name)
+        | Thing::Formula(name)) = &thing;
         let nearest = nearest(name, names.into_iter()).join(", ");
         let nearest = if nearest.is_empty() { nearest } else { format!("; nearest: {nearest}") };
-        Error::Named { thing, what: what + &nearest }
+        Error::Named { thing, problem: problem + &nearest }
     }
 
-    pub(crate) fn at(self, place: String) -> Error {
+    /// Adds the place where it can be corrected, unless it has one.
+    pub(crate) fn with_place(self, place: impl Into<Place>) -> Error {
         match self {
             Error::At { .. } => self,
-            error => Error::At { place, error: Box::new(error) },
+            error => Error::At { place: place.into(), error: Box::new(error) },
         }
     }
 
-    pub(crate) fn all(errors: Vec<Error>) -> Result<(), Error> {
+    /// Returns the place where it can be corrected, or `None` if that is not known.
+    pub(crate) fn place(&self) -> Option<&Place> {
+        if let Error::At { place, .. } = self { Some(place) } else { None }
+    }
+
+    pub(crate) fn check(errors: Vec<Error>) -> Result<(), Error> {
         if errors.is_empty() { Ok(()) } else { Err(Error::Several(errors)) }
     }
 
-    pub(crate) fn each(self) -> Vec<Error> {
+    pub(crate) fn into_list(self) -> Vec<Error> {
         match self {
-            Error::Several(errors) => errors.into_iter().flat_map(Error::each).collect(),
+            Error::Several(errors) => errors.into_iter().flat_map(Error::into_list).collect(),
             error => vec![error],
         }
     }

@@ -1,9 +1,9 @@
 //! Keeps where each piece of the filled prose stands in the templates.
 
-use super::error::Error;
+use super::error::{Error, Thing};
 use super::mark::{Piece, framed, pieces};
 use super::typed::{self, Names};
-use crate::input::line_and_column;
+use crate::input::Place;
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Filled {
@@ -21,7 +21,7 @@ struct Origin {
     start: usize,
     template: usize,
     offset: usize,
-    tag: bool,
+    is_tag: bool,
 }
 
 impl Filled {
@@ -33,15 +33,17 @@ impl Filled {
         let template = self.templates.len();
         self.templates.push((path.into(), text.into()));
         self.typed.push(typed::names(text));
-        let here = |start, offset, tag| Origin { start, template, offset, tag };
+        let here = |start, offset, is_tag| Origin { start, template, offset, is_tag };
         self.origins.push(here(self.text.len(), 0, false));
         for piece in pieces(filled) {
             match piece {
                 Piece::Text(text) => self.text += text,
-                Piece::Value { id, shown } if !id.is_empty() => self.text += &framed(&id, shown),
-                Piece::Value { shown, .. } => {
-                    let offset = shown.trim_end_matches(['t', 'x']).parse().unwrap_or_default();
-                    self.origins.push(here(self.text.len(), offset, shown.ends_with('t')));
+                Piece::Value { id, filters } if !id.is_empty() => {
+                    self.text += &framed(&id, filters)
+                }
+                Piece::Value { filters, .. } => {
+                    let offset = filters.trim_end_matches(['t', 'x']).parse().unwrap_or_default();
+                    self.origins.push(here(self.text.len(), offset, filters.ends_with('t')));
                 }
             }
         }
@@ -52,68 +54,72 @@ impl Filled {
         self.origins[last.saturating_sub(1)]
     }
 
-    /// File, line and column in the template, from 1, of an offset in the text.
-    pub fn place(&self, offset: usize) -> String {
+    /// Returns the place in the template of an offset in the text.
+    pub fn place(&self, offset: usize) -> Place {
         let origin = self.origin(offset);
         let (path, text) = &self.templates[origin.template];
-        let beyond = if origin.tag { 0 } else { offset - origin.start };
-        format!("{path}:{}", line_and_column(text, (origin.offset + beyond).min(text.len())))
+        let beyond = if origin.is_tag { 0 } else { offset - origin.start };
+        Place::in_text(path.clone(), text, (origin.offset + beyond).min(text.len()))
     }
 
     /// Returns whether people typed what stands at an offset, as text or within a tag.
     pub fn is_typed(&self, offset: usize) -> bool {
-        let Origin { template, offset, tag, .. } = self.origin(offset);
+        let Origin { template, offset, is_tag, .. } = self.origin(offset);
         let inside = self.templates[template].1[offset..].trim_start_matches('«');
         let inside = inside.split('»').next().unwrap_or_default();
-        !tag || typed::is_typed(inside, &self.typed[template])
+        !is_tag || typed::is_typed(inside, &self.typed[template])
     }
 }
 
-/// Offsets of what errors can name: `#fig:3` an id, `@fig:3` a reference, `(path` a link, `!name` a
-/// picture, `$tex` a formula.
+/// The offsets of the things that errors can name.
 #[derive(Clone, Debug)]
 pub struct Places<'a> {
     filled: &'a Filled,
-    found: Vec<(String, usize)>,
+    offsets: Vec<(Thing, usize)>,
 }
 
 impl<'a> Places<'a> {
-    pub fn of(filled: &'a Filled) -> Self {
-        Places { filled, found: Vec::new() }
+    pub fn new(filled: &'a Filled) -> Self {
+        Places { filled, offsets: Vec::new() }
     }
 
-    pub fn add(&mut self, thing: String, offset: usize) {
-        self.found.push((thing, offset));
+    pub fn add(&mut self, thing: Thing, offset: usize) {
+        self.offsets.push((thing, offset));
     }
 
-    pub fn links(&self) -> impl Iterator<Item = (&str, String)> {
-        let all = self.found.iter().map(|(thing, at)| (thing.strip_prefix('('), at));
-        all.filter_map(|(to, at)| Some((to?, self.filled.place(*at))))
+    pub fn links(&self) -> impl Iterator<Item = (&str, Place)> {
+        self.offsets.iter().filter_map(|(thing, offset)| match thing {
+            Thing::Link(to) => Some((to.as_str(), self.filled.place(*offset))),
+            _ => None,
+        })
     }
 
     pub fn ids(&self) -> impl Iterator<Item = &str> {
-        self.found.iter().filter_map(|(thing, _)| thing.strip_prefix('#'))
+        self.offsets.iter().filter_map(|(thing, _)| match thing {
+            Thing::Id(id) => Some(id.as_str()),
+            _ => None,
+        })
     }
 
-    /// Adds to an error the place of what it names. Of two things with one id the second is meant.
+    /// Adds to an error the place of what it names; of two things with one id this is the second.
     pub fn locate(&self, error: Error) -> Error {
         let offset = match &error {
             Error::Several(_) => {
-                let errors = error.each().into_iter().map(|error| self.locate(error));
+                let errors = error.into_list().into_iter().map(|error| self.locate(error));
                 return Error::Several(errors.collect());
             }
             Error::Named { thing, .. } => self.offset(thing),
-            Error::Maths { tex, .. } => self.offset(&format!("${tex}")),
+            Error::Maths { tex, .. } => self.offset(&Thing::Formula(tex.clone())),
             Error::NoLatex(c) => self.filled.text.find(*c),
             _ => None,
         };
         match offset {
-            Some(offset) => error.at(self.filled.place(offset)),
+            Some(offset) => error.with_place(self.filled.place(offset)),
             None => error,
         }
     }
 
-    fn offset(&self, thing: &str) -> Option<usize> {
-        self.found.iter().rev().find(|(noted, _)| noted == thing).map(|(_, offset)| *offset)
+    fn offset(&self, thing: &Thing) -> Option<usize> {
+        self.offsets.iter().rev().find(|(other, _)| other == thing).map(|(_, offset)| *offset)
     }
 }

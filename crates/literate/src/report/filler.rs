@@ -5,9 +5,9 @@ use super::edition::Document;
 use super::error::Error;
 use super::filled::Filled;
 use super::lint::Declared;
-use super::mark::{self, Piece, marked, pieces};
+use super::mark::{self, Piece, pieces, with_places};
 use super::values::{Number, Registry, Value};
-use crate::input::{line_and_column, plain};
+use crate::input::{Place, in_plain_words};
 use crate::prose::Templates;
 use crate::table::{Table, nearest};
 use serde_json::Value as Json;
@@ -50,17 +50,17 @@ impl Filler {
         let long = |(path, text): (&str, &str)| {
             Some((path.to_string(), text.match_indices("elif").nth(200)?.0))
         };
-        if let Some((path, at)) = templates.iter().find_map(long) {
+        if let Some((path, offset)) = templates.iter().find_map(long) {
             return Err(fault(
                 templates,
                 &path,
-                at,
+                offset,
                 "more than 200 `elif` in a file; write a table",
             ));
         }
         let set = tera.set_delimiters(delimiters);
         tera.autoescape_on(Vec::<&str>::new());
-        let names = names(values, &tables);
+        let names = context_names(values, &tables);
         let mut context = Context::new();
         for (group, names) in names.as_object().into_iter().flatten() {
             context.insert(group.clone(), names);
@@ -68,7 +68,7 @@ impl Filler {
         let mut filler = Filler { tera, templates: templates.clone(), declared, context, names };
         let sources: Vec<(String, String)> = templates.iter().filter_map(source).collect();
         let added = set.and_then(|()| filler.tera.add_raw_templates(sources));
-        added.map_err(|error| filler.failure(&error))?;
+        added.map_err(|error| filler.translate(&error))?;
         Ok(filler)
     }
 
@@ -79,64 +79,67 @@ impl Filler {
 
     pub fn fill(&self, path: &str) -> Result<String, Error> {
         let mut written = Written(Vec::new());
-        let made = self.tera.render_to(path, &self.context, &mut written);
-        let text = String::from_utf8(written.0).unwrap_or_default();
-        if text.len() > MOST {
-            let what = format!("this writes more than {} MiB; end the loop earlier", MOST >> 20);
-            let place = text.rsplit(mark::OPEN).find_map(mark::place_of);
-            return Err(self.fault(path, place.unwrap_or_default(), &what));
+        let outcome = self.tera.render_to(path, &self.context, &mut written);
+        let output = String::from_utf8(written.0).unwrap_or_default();
+        if output.len() > MOST {
+            let problem = format!("this writes more than {} MiB; end the loop earlier", MOST >> 20);
+            let offset = output.rsplit(mark::OPEN).find_map(mark::offset_in);
+            return Err(self.fault(path, offset.unwrap_or_default(), &problem));
         }
-        made.map(|()| text).map_err(|error| self.failure(&error))
+        outcome.map(|()| output).map_err(|error| self.translate(&error))
     }
 
     /// Fills the prose of a document, and keeps where each piece of it stands.
     pub fn prose(&self, document: &Document) -> Result<Filled, Error> {
         let files = document.files(&self.templates);
         if files.is_empty() {
-            let what = "no such file in the templates; write the document";
-            return Err(Error::Template(format!("{}.md: {what}", document.prose)));
+            let problem = "no such file in the templates; write the document";
+            return Err(Error::Template(format!("{}.md: {problem}", document.prose)));
         }
         let mut filled = Filled::default();
         for path in files {
-            let text = self.templates.text(path)?;
-            self.conditions(path, text)?;
-            filled.add(&self.templates.place(path), text, &self.fill(path)?);
+            let template = self.templates.text(path)?;
+            self.conditions(path, template)?;
+            filled.add(&self.templates.place(path), template, &self.fill(path)?);
         }
         Ok(filled)
     }
 
-    /// Refuses unknown names in conditions, which Tera takes for *false*, and plain numbers.
-    fn conditions(&self, path: &str, text: &str) -> Result<(), Error> {
-        let uses = |group| text.match_indices(group).map(|(at, _)| at);
-        for at in uses("raw.").chain(uses("keys.")) {
-            if text[at..].starts_with("raw.")
-                && text[..at].trim_end_matches(['-', ' ']).ends_with('«')
+    /// Refuses names in conditions that do not exist, which Tera takes for *false*, and plain
+    /// numbers outside of conditions.
+    fn conditions(&self, path: &str, template: &str) -> Result<(), Error> {
+        let uses = |group| template.match_indices(group).map(|(offset, _)| offset);
+        for offset in uses("raw.").chain(uses("keys.")) {
+            if template[offset..].starts_with("raw.")
+                && template[..offset].trim_end_matches(['-', ' ']).ends_with('«')
             {
-                let what = "a plain number is for conditions; write the value, as «v.name»";
-                return Err(self.fault(path, at, what));
+                let problem = "a plain number is for conditions; write the value, as «v.name»";
+                return Err(self.fault(path, offset, problem));
             }
-            let begins = !text[..at].ends_with(|c: char| c.is_alphanumeric() || "._".contains(c));
-            if let Some(what) = self.missing(&text[at..]).filter(|_| begins) {
-                return Err(self.fault(path, at, &what));
+            let begins =
+                !template[..offset].ends_with(|c: char| c.is_alphanumeric() || "._".contains(c));
+            if let Some(problem) = self.describe_missing(&template[offset..]).filter(|_| begins) {
+                return Err(self.fault(path, offset, &problem));
             }
         }
         Ok(())
     }
 
-    fn fault(&self, path: &str, at: usize, what: &str) -> Error {
-        fault(&self.templates, path, at, what)
+    fn fault(&self, path: &str, offset: usize, problem: &str) -> Error {
+        fault(&self.templates, path, offset, problem)
     }
 
-    /// Returns which part of a name, `table["row"].column`, does not exist, with the nearest that
-    /// does; none if the name is right or names no value. A computed row may be any row.
-    fn missing(&self, expression: &str) -> Option<String> {
+    /// Describes which part of a name, `table["row"].column`, does not exist, with the most similar
+    /// names, or returns `None` if the name is right or names no value. A computed row may be any
+    /// row.
+    fn describe_missing(&self, expression: &str) -> Option<String> {
         let mut here = &self.names;
-        for (at, (key, end)) in steps(expression).into_iter().enumerate() {
+        for (depth, (key, end)) in steps(expression).into_iter().enumerate() {
             let names = here.as_object()?;
             match key.map_or(names.values().next(), |key| names.get(key)) {
                 Some(next) => here = next,
                 // A name of Tera, as a variable of a loop.
-                None if at == 0 => return None,
+                None if depth == 0 => return None,
                 None => {
                     let key = key.filter(|key| !key.is_empty())?;
                     let nearest = nearest(key, names.keys().map(String::as_str)).join(", ");
@@ -149,60 +152,71 @@ impl Filler {
     }
 
     /// Lists the plain numbers that an expression names: `raw.a is 0.12, raw.b is 0.11`.
-    fn numbers(&self, expression: &str) -> String {
-        let mut found = Vec::new();
-        for (at, _) in expression.match_indices("raw.") {
-            let steps = steps(&expression[at..]);
+    fn list_numbers(&self, expression: &str) -> String {
+        let mut numbers = Vec::new();
+        for (offset, _) in expression.match_indices("raw.") {
+            let steps = steps(&expression[offset..]);
             let end = steps.last().map_or(0, |(_, end)| *end);
             let number = steps.iter().try_fold(&self.names, |here, (key, _)| here.get((*key)?));
-            found.extend(number.map(|number| format!("{} is {number}", &expression[at..at + end])));
+            numbers.extend(
+                number.map(|number| format!("{} is {number}", &expression[offset..offset + end])),
+            );
         }
-        found.join(", ")
+        numbers.join(", ")
     }
 
-    /// An error of Tera in one line. Tera writes a message, an arrow to the place, and the line.
-    fn failure(&self, error: &tera::Error) -> Error {
+    /// Translates an error of Tera, which is a message, an arrow to the place, and the line there.
+    fn translate(&self, error: &tera::Error) -> Error {
         let report = error.to_string();
-        let (what, place) = report.split_once("--> ").unwrap_or((&report, ""));
-        let what = what.split(" Available fields: ").next().unwrap_or_default();
-        let what = plain(what.trim_start_matches("error: ").trim_end());
+        let (problem, place) = report.split_once("--> ").unwrap_or((&report, ""));
+        let problem = problem.split(" Available fields: ").next().unwrap_or_default();
+        let problem = in_plain_words(problem.trim_start_matches("error: ").trim_end());
         let signs = [("%}", "%>"), ("{%", "<%"), ("}}", "»"), ("{{", "«")];
-        let what = signs.iter().fold(what, |what, (theirs, ours)| what.replace(theirs, ours));
+        let problem =
+            signs.iter().fold(problem, |problem, (theirs, ours)| problem.replace(theirs, ours));
         let place: Vec<&str> = place.lines().next().unwrap_or_default().split(':').collect();
-        let [path, line, column] = place[..] else { return Error::Template(what) };
-        let text = self.templates.text(path).unwrap_or_default();
+        let [path, line, column] = place[..] else { return Error::Template(problem) };
+        let template = self.templates.text(path).unwrap_or_default();
         let [line, column] = [line, column].map(|from_one| from_one.parse().unwrap_or(1) - 1);
         // The columns are those of the text with its place marks.
-        let begun = text.split_inclusive('\n').take(line).map(str::len).sum::<usize>();
-        let marked = if path.ends_with(".md") { marked(text) } else { text.into() };
+        let begun = template.split_inclusive('\n').take(line).map(str::len).sum::<usize>();
+        let marked = if path.ends_with(".md") { with_places(template) } else { template.into() };
         let before = marked.lines().nth(line).unwrap_or_default().chars().take(column);
         let typed = |piece| match piece {
-            Piece::Text(text) => text.len(),
+            Piece::Text(template) => template.len(),
             Piece::Value { .. } => 0,
         };
-        let at = begun + pieces(&before.collect::<String>()).into_iter().map(typed).sum::<usize>();
-        let Some(tag) = text.get(..at).and_then(|before| before.rfind('«')) else {
-            return self.fault(path, at, &what);
+        let offset =
+            begun + pieces(&before.collect::<String>()).into_iter().map(typed).sum::<usize>();
+        let Some(tag) = template.get(..offset).and_then(|before| before.rfind('«')) else {
+            return self.fault(path, offset, &problem);
         };
-        let inside = text[tag..].trim_start_matches(['«', '-', ' ']);
+        let inside = template[tag..].trim_start_matches(['«', '-', ' ']);
         let (inside, rest) = inside.split_at(inside.find(['«', '»', '\n']).unwrap_or(inside.len()));
         if !rest.starts_with('»') {
             return self.fault(path, tag, "this « has no » on its line; close it");
         }
-        let what = match self.missing(inside) {
+        let problem = match self.describe_missing(inside) {
             Some(missing) => missing,
-            None if what.contains(NOT_TRUE) => {
-                format!("{what}: {inside}, where {}; correct the sentence", self.numbers(inside))
+            None if problem.contains(NOT_TRUE) => {
+                format!(
+                    "{problem}: {inside}, where {}; correct the sentence",
+                    self.list_numbers(inside)
+                )
             }
-            None => what,
+            None => problem,
         };
-        self.fault(path, at, &what)
+        self.fault(path, offset, &problem)
     }
 }
 
-fn fault(templates: &Templates, path: &str, at: usize, what: &str) -> Error {
-    let place = line_and_column(templates.text(path).unwrap_or_default(), at);
-    Error::Template(templates.place(&format!("{path}:{place}: {what}")))
+fn fault(templates: &Templates, path: &str, offset: usize, problem: &str) -> Error {
+    let template = templates.text(path).unwrap_or_default();
+    Error::Template(problem.into()).with_place(Place::in_text(
+        templates.place(path),
+        template,
+        offset,
+    ))
 }
 
 /// A template writes at most this many bytes.
@@ -222,7 +236,8 @@ impl std::io::Write for Written {
     }
 }
 
-/// Reads the name that begins an expression: each key, none of a computed row, and where it ends.
+/// Splits the name that begins an expression into its keys, each with the offset of its end; a row
+/// that is computed has no key.
 fn steps(expression: &str) -> Vec<(Option<&str>, usize)> {
     let (mut steps, mut end) = (Vec::new(), 0);
     loop {
@@ -234,8 +249,8 @@ fn steps(expression: &str) -> Vec<(Option<&str>, usize)> {
             quoted.filter(|key| !key.contains('"'))
         } else {
             let name = rest.strip_prefix('.').unwrap_or(rest);
-            let other = |c: char| !(c.is_alphanumeric() || c == '_');
-            let name = &name[..name.find(other).unwrap_or(name.len())];
+            let is_other = |c: char| !(c.is_alphanumeric() || c == '_');
+            let name = &name[..name.find(is_other).unwrap_or(name.len())];
             end += usize::from(rest.starts_with('.')) + name.len();
             Some(name)
         };
@@ -248,16 +263,16 @@ fn steps(expression: &str) -> Vec<(Option<&str>, usize)> {
 
 const NOT_TRUE: &str = "the words before are no longer true";
 
-/// A file that Tera fills; prose with its place marks.
+/// Returns path and text of a file that Tera fills; prose has marks of its places.
 fn source((path, text): (&str, &str)) -> Option<(String, String)> {
     match path.rsplit_once('.')?.1 {
-        "md" => Some((path.into(), marked(text))),
+        "md" => Some((path.into(), with_places(text))),
         "tex" | "html" => Some((path.into(), text.into())),
         _ => None,
     }
 }
 
-fn raw(value: &Value) -> Json {
+fn plain_number(value: &Value) -> Json {
     match &value.number {
         Number::None => Json::Null,
         // Templates have integers of 64 bits.
@@ -267,13 +282,13 @@ fn raw(value: &Value) -> Json {
     }
 }
 
-fn names(values: &Registry, tables: &[&Table]) -> Json {
+fn context_names(values: &Registry, tables: &[&Table]) -> Json {
     let mut names = Json::Null;
     let mut add = |path: &[&str], value: Option<&Value>| {
         let group: &[&str] = if path.len() == 1 { &["v"] } else { &[] };
         let mark = value.map(|value| mark::framed(&value.id, ""));
-        put(&mut names, &[group, path].concat(), mark.into());
-        put(&mut names, &[&["raw"], path].concat(), value.map_or(Json::Null, raw));
+        insert_at(&mut names, &[group, path].concat(), mark.into());
+        insert_at(&mut names, &[&["raw"], path].concat(), value.map_or(Json::Null, plain_number));
     };
     for value in values.iter() {
         add(&value.id.split('.').collect::<Vec<_>>(), Some(value));
@@ -282,7 +297,7 @@ fn names(values: &Registry, tables: &[&Table]) -> Json {
         let name: Vec<&str> = table.name().split('.').collect();
         // A table without rows has a name too.
         add(&name, None);
-        for (row, cells) in table.named() {
+        for (row, cells) in table.rows_by_name() {
             for (column, cell) in cells {
                 // A table of one row without keys is that row.
                 let row: &[&str] = if row.is_empty() { &[] } else { &[&row] };
@@ -292,44 +307,45 @@ fn names(values: &Registry, tables: &[&Table]) -> Json {
     }
     for table in tables {
         let name: Vec<&str> = ["keys"].into_iter().chain(table.name().split('.')).collect();
-        put(&mut names, &[&name[..], &["rows"]].concat(), table.rows().collect());
+        insert_at(&mut names, &[&name[..], &["rows"]].concat(), table.rows().collect());
         for key in table.keys() {
-            put(&mut names, &[&name[..], &[key]].concat(), table.called(key).into());
+            insert_at(&mut names, &[&name[..], &[key]].concat(), table.key_values(key).into());
         }
     }
     names
 }
 
-fn put(tree: &mut Json, path: &[&str], thing: Json) {
-    *path.iter().fold(tree, |tree, part| &mut tree[*part]) = thing;
+fn insert_at(tree: &mut Json, path: &[&str], value: Json) {
+    *path.iter().fold(tree, |tree, part| &mut tree[*part]) = value;
 }
 
 /// Registers the filters and functions that the manual lists; the values `empty` have no number.
 fn register(tera: &mut Tera, empty: BTreeSet<String>) {
-    let with = |text: &str, word: &str| {
-        let what = || tera::Error::message(format!("`{word}` is a filter for values, as v.name"));
-        mark::with(text, word).ok_or_else(what)
+    let with = |mark: &str, word: &str| {
+        let problem =
+            || tera::Error::message(format!("`{word}` is a filter for values, as v.name"));
+        mark::with_filter(mark, word).ok_or_else(problem)
     };
-    tera.register_filter("percent", move |text: &str, _: Kwargs, _: &State| with(text, "percent"));
-    tera.register_filter("significant", move |text: &str, arguments: Kwargs, _: &State| {
+    tera.register_filter("percent", move |mark: &str, _: Kwargs, _: &State| with(mark, "percent"));
+    tera.register_filter("significant", move |mark: &str, arguments: Kwargs, _: &State| {
         match arguments.must_get("digits") {
-            Ok(digits @ 1..=17) => with(text, &format!("significant{digits}")),
+            Ok(digits @ 1..=17) => with(mark, &format!("significant{digits}")),
             _ => Err(tera::Error::message("`significant` needs 1 to 17: significant(digits=2)")),
         }
     });
-    tera.register_filter("otherwise", move |text: &str, arguments: Kwargs, _: &State| {
+    tera.register_filter("otherwise", move |mark: &str, arguments: Kwargs, _: &State| {
         let words: String = arguments.must_get("words")?;
         let is_empty = |id| empty.contains(&id);
-        Ok::<_, tera::Error>(if mark::ids(text).any(is_empty) { words } else { text.into() })
+        Ok::<_, tera::Error>(if mark::ids(mark).any(is_empty) { words } else { mark.into() })
     });
     tera.register_function("literal", |arguments: Kwargs, _: &State| {
-        let text: String = arguments.must_get("text")?;
+        let literal: String = arguments.must_get("text")?;
         let why: String = arguments.must_get("why")?;
-        if text.trim().is_empty() || why.trim().is_empty() {
-            let what = "`literal` needs a number in `text` and its reason in `why`";
-            return Err(tera::Error::message(what));
+        if literal.trim().is_empty() || why.trim().is_empty() {
+            let problem = "`literal` needs a number in `text` and its reason in `why`";
+            return Err(tera::Error::message(problem));
         }
-        Ok(text)
+        Ok(literal)
     });
     tera.register_function("holds", |arguments: Kwargs, _: &State| {
         let holds: bool = arguments.must_get("that")?;

@@ -42,25 +42,25 @@ fn failed(place: &Path) -> impl Fn(io::Error) -> Error {
     move |source| Error::Io { place: place.clone(), source }
 }
 
-fn digests<'a>(files: impl Iterator<Item = (&'a String, &'a Vec<u8>)>) -> Digests {
+fn digest_files<'a>(files: impl Iterator<Item = (&'a String, &'a Vec<u8>)>) -> Digests {
     files.map(|(path, bytes)| (path.clone(), sha256(bytes))).collect()
 }
 
-/// Lines that `sha256sum --check` reads, sorted by path.
-fn lines(digests: &Digests) -> String {
+/// Returns the lines that `sha256sum --check` reads, sorted by path.
+fn to_list(digests: &Digests) -> String {
     digests.iter().map(|(path, digest)| format!("{digest}  {path}\n")).collect()
 }
 
 pub fn add_lists(files: &mut Files) {
     for (name, generated) in [(SUMS, false), (BUILT, true)] {
         let listed = files.iter().filter(|(path, _)| is_generated(path) == generated);
-        let list = lines(&digests(listed));
+        let list = to_list(&digest_files(listed));
         files.insert(name.into(), list.into_bytes());
     }
 }
 
-/// Reads paths and digests. Returns none if there is no line, or if a line names anything but a
-/// file of a report, so that no list can lead out of the folder.
+/// Reads paths and digests from a list. Returns `None` if there is no line, or if a line names
+/// anything but a file of a report, so that no list can lead out of the folder.
 pub fn read_sums(text: &str) -> Option<Digests> {
     let entry = |line: &str| {
         let (digest, path) = line.split_once("  ")?;
@@ -77,13 +77,13 @@ pub fn read_sums(text: &str) -> Option<Digests> {
     text.lines().map(entry).collect::<Option<Digests>>().filter(|list| !list.is_empty())
 }
 
-fn names(folder: &Path) -> Result<Vec<String>, Error> {
+fn entry_names(folder: &Path) -> Result<Vec<String>, Error> {
     let name = |entry: io::Result<std::fs::DirEntry>| {
         entry.map(|entry| entry.file_name().to_string_lossy().into_owned())
     };
     match std::fs::read_dir(folder) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Vec::new()),
-        found => found.and_then(|all| all.map(name).collect()).map_err(failed(folder)),
+        entries => entries.and_then(|entries| entries.map(name).collect()).map_err(failed(folder)),
     }
 }
 
@@ -92,7 +92,7 @@ pub fn walk(folder: &Path) -> Result<Vec<String>, Error> {
     let mut paths = Vec::new();
     let mut open = vec![String::new()];
     while let Some(prefix) = open.pop() {
-        for name in names(&folder.join(&prefix))? {
+        for name in entry_names(&folder.join(&prefix))? {
             let path = format!("{prefix}{name}");
             let place = folder.join(&path);
             if place.symlink_metadata().map_err(failed(&place))?.is_dir() {
@@ -106,7 +106,8 @@ pub fn walk(folder: &Path) -> Result<Vec<String>, Error> {
     Ok(paths)
 }
 
-/// Whether a file is built with a report and never committed: .gitignore names the same.
+/// Returns whether a file is built with a report and never committed: .gitignore names the same
+/// files.
 pub fn is_generated(path: &str) -> bool {
     match path.split_once('/') {
         Some((folder, name)) => match folder {
@@ -118,37 +119,37 @@ pub fn is_generated(path: &str) -> bool {
     }
 }
 
-/// Reads a list of a folder; none if it is not there or not a list.
-fn list(folder: &Path, name: &str) -> Option<Digests> {
-    read_sums(&input::regular_text(&folder.join(name)).ok()?)
+/// Reads a list of a folder, or returns `None` if there is no such list.
+fn read_list(folder: &Path, name: &str) -> Option<Digests> {
+    read_sums(&input::read_text(&folder.join(name)).ok()?)
 }
 
-/// Returns the digests in the list of a folder; none if it has other files and no list.
-fn ours(folder: &Path) -> Result<Option<Digests>, Error> {
-    let is_empty = names(folder)?.iter().all(|name| name.starts_with(STAGING));
-    Ok(list(folder, SUMS).or_else(|| is_empty.then(Digests::new)))
+/// Returns the digests in the list of a folder, or `None` if it has other files and no list.
+fn listed_digests(folder: &Path) -> Result<Option<Digests>, Error> {
+    let is_empty = entry_names(folder)?.iter().all(|name| name.starts_with(STAGING));
+    Ok(read_list(folder, SUMS).or_else(|| is_empty.then(Digests::new)))
 }
 
 /// Waits until no other run writes into a folder, and keeps others out until the result is dropped.
-/// None if the folder is absent or its file system has no locks.
+/// Returns `None` if the folder is absent or its file system has no locks.
 fn lock(folder: &Path) -> Option<File> {
     File::open(folder).ok().filter(|folder| folder.lock().is_ok())
 }
 
 /// Refuses a folder that has no report, and names files that were edited: neither as listed, nor as
 /// `files` has them. For a whole report all listed files are checked.
-pub fn refuse(folder: &Path, files: &Files, whole: bool) -> Result<(), Error> {
+pub fn refuse(folder: &Path, files: &Files, is_whole: bool) -> Result<(), Error> {
     let _alone = lock(folder);
-    refuse_alone(folder, files, whole)
+    refuse_locked(folder, files, is_whole)
 }
 
-fn refuse_alone(folder: &Path, files: &Files, whole: bool) -> Result<(), Error> {
+fn refuse_locked(folder: &Path, files: &Files, is_whole: bool) -> Result<(), Error> {
     let place = || folder.display().to_string();
-    let mut ours = ours(folder)?.ok_or_else(|| Error::NotOurs(place()))?;
-    ours.extend(list(folder, BUILT).unwrap_or_default());
-    let paths = ours.keys().filter(|_| whole).chain(files.keys());
+    let mut ours = listed_digests(folder)?.ok_or_else(|| Error::NotOurs(place()))?;
+    ours.extend(read_list(folder, BUILT).unwrap_or_default());
+    let paths = ours.keys().filter(|_| is_whole).chain(files.keys());
     let paths = paths.filter(|path| ![SUMS, BUILT].contains(&path.as_str()));
-    let is_edited = |path: &&String| match input::regular(&folder.join(path)) {
+    let is_edited = |path: &&String| match input::read_file(&folder.join(path)) {
         Ok(bytes) => files.get(*path) != Some(&bytes) && ours.get(*path) != Some(&sha256(&bytes)),
         Err(error) => !is_absent(&error),
     };
@@ -161,76 +162,81 @@ fn refuse_alone(folder: &Path, files: &Files, whole: bool) -> Result<(), Error> 
 /// last. If the lists are among them they are a whole report, and files that only the old lists
 /// name are removed; else their lines are added to the old list. Unless forced, it refuses first.
 pub fn write(folder: &Path, files: &Files, force: bool) -> Result<(), Error> {
-    let whole = files.contains_key(SUMS);
+    let is_whole = files.contains_key(SUMS);
     std::fs::create_dir_all(folder).map_err(failed(folder))?;
     let _alone = lock(folder);
     if !force {
-        refuse_alone(folder, files, whole)?;
+        refuse_locked(folder, files, is_whole)?;
     }
-    let (mut listed, built) = (ours(folder)?.unwrap_or_default(), list(folder, BUILT));
-    let gone = |path: &&String| whole && !files.contains_key(*path) && folder.join(path).exists();
+    let (mut listed, built) =
+        (listed_digests(folder)?.unwrap_or_default(), read_list(folder, BUILT));
+    let gone =
+        |path: &&String| is_whole && !files.contains_key(*path) && folder.join(path).exists();
     let old = listed.keys().chain(built.iter().flat_map(BTreeMap::keys));
     let gone: Vec<String> = old.filter(gone).cloned().collect();
 
     let _moment = WRITING.read();
-    let killed: Vec<String> =
-        names(folder)?.into_iter().filter(|name| name.starts_with(STAGING)).collect();
+    let leftovers: Vec<String> =
+        entry_names(folder)?.into_iter().filter(|name| name.starts_with(STAGING)).collect();
     let staged = tempfile::Builder::new().prefix(STAGING).tempdir_in(folder);
     let staged = staged.map_err(failed(folder))?;
-    let put = |root: &Path, path: &str, how: &dyn Fn(&Path) -> io::Result<()>| {
+    let put = |root: &Path, path: &str, action: &dyn Fn(&Path) -> io::Result<()>| {
         let place = root.join(path);
         let above = place.parent().map_or(Ok(()), std::fs::create_dir_all);
-        above.and_then(|()| how(&place)).map_err(failed(&folder.join(path)))
+        above.and_then(|()| action(&place)).map_err(failed(&folder.join(path)))
     };
-    let mut all = files.clone();
-    if !whole {
-        listed.extend(digests(files.iter()));
-        all.insert(SUMS.into(), lines(&listed).into_bytes());
+    let mut to_write = files.clone();
+    if !is_whole {
+        listed.extend(digest_files(files.iter()));
+        to_write.insert(SUMS.into(), to_list(&listed).into_bytes());
     }
-    let mut all: Vec<(&String, &Vec<u8>)> = all.iter().collect();
-    all.retain(|(path, bytes)| input::regular(&folder.join(path)).ok().as_ref() != Some(bytes));
-    all.sort_by_key(|(path, _)| [BUILT, SUMS].iter().position(|list| list == path));
-    for (path, bytes) in &all {
+    let mut to_write: Vec<(&String, &Vec<u8>)> = to_write.iter().collect();
+    to_write
+        .retain(|(path, bytes)| input::read_file(&folder.join(path)).ok().as_ref() != Some(bytes));
+    to_write.sort_by_key(|(path, _)| [BUILT, SUMS].iter().position(|list| list == path));
+    for (path, bytes) in &to_write {
         put(staged.path(), path, &|place| std::fs::write(place, bytes))?;
     }
     for path in &gone {
         put(folder, path, &|place| std::fs::remove_file(place))?;
     }
-    for (path, _) in &all {
+    for (path, _) in &to_write {
         put(folder, path, &|place| std::fs::rename(staged.path().join(path), place))?;
     }
-    for name in killed {
+    for name in leftovers {
         let _ = std::fs::remove_dir_all(folder.join(name));
     }
     Ok(())
 }
 
-/// Returns how many files are expected, and a line for each fault; what is built may be missing.
-fn faults(folder: &Path, mut expected: Digests) -> Result<(usize, Vec<String>), Error> {
+/// Returns how many files are expected, and a line for each file that is not as expected; what is
+/// only built may be missing.
+fn find_faults(folder: &Path, mut expected: Digests) -> Result<(usize, Vec<String>), Error> {
     expected.retain(|path, _| !is_generated(path) || folder.join(path).exists());
-    let fault = |(path, digest): (&String, &String)| match input::regular(&folder.join(path)) {
+    let fault = |(path, digest): (&String, &String)| match input::read_file(&folder.join(path)) {
         Ok(bytes) if sha256(&bytes) == *digest => None,
         Ok(_) => Some(format!("differs  {path}")),
         Err(error) if is_absent(&error) => Some(format!("missing  {path}")),
         Err(error) => Some(format!("unread   {path} ({error})")),
     };
-    let strange = walk(folder)?.into_iter().filter(|path| !expected.contains_key(path));
-    let strange = strange.map(|path| format!("unlisted {path}"));
-    Ok((expected.len(), expected.iter().filter_map(fault).chain(strange).collect()))
+    let unlisted = walk(folder)?.into_iter().filter(|path| !expected.contains_key(path));
+    let unlisted = unlisted.map(|path| format!("unlisted {path}"));
+    Ok((expected.len(), expected.iter().filter_map(fault).chain(unlisted).collect()))
 }
 
 pub fn verify(folder: &Path) -> Result<(usize, Vec<String>), Error> {
     let place = folder.join(SUMS);
-    let text = input::regular_text(&place).map_err(failed(&place))?;
-    let mut all = read_sums(&text).ok_or_else(|| Error::NoList(folder.display().to_string()))?;
-    all.extend(list(folder, BUILT).unwrap_or_default());
-    let (count, mut faults) = faults(folder, all)?;
+    let sums = input::read_text(&place).map_err(failed(&place))?;
+    let mut digests =
+        read_sums(&sums).ok_or_else(|| Error::NoList(folder.display().to_string()))?;
+    digests.extend(read_list(folder, BUILT).unwrap_or_default());
+    let (count, mut faults) = find_faults(folder, digests)?;
     faults.retain(|fault| ![SUMS, BUILT].iter().any(|list| *fault == format!("unlisted {list}")));
     Ok((count, faults))
 }
 
 pub fn compare(folder: &Path, files: &Files) -> Result<(usize, Vec<String>), Error> {
-    faults(folder, digests(files.iter()))
+    find_faults(folder, digest_files(files.iter()))
 }
 
 #[cfg(test)]
@@ -250,7 +256,7 @@ mod tests {
     }
 
     fn standing(folder: &Path) -> Files {
-        let one = |path: String| (path.clone(), input::regular(&folder.join(path)).unwrap());
+        let one = |path: String| (path.clone(), input::read_file(&folder.join(path)).unwrap());
         walk(folder).unwrap().into_iter().map(one).collect()
     }
 

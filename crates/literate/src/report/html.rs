@@ -7,14 +7,14 @@ pub(super) mod shared;
 mod table;
 
 use super::document::{self, Block, Formula, Inline};
-use super::document::{heading_place, place_on_page, spelt};
+use super::document::{heading_place, place_on_page, to_spelt_text};
 use super::edition::Document;
 use super::error::Error;
 use super::input::Input;
 use super::{latex, mathml};
 use crate::claims::Verdict;
 use crate::figures::{Glyphs, escape, outlines};
-use crate::print::{Numeral, Shown};
+use crate::print::{Numeral, Printed};
 use math_core::MathDisplay;
 use serde_json::{Value as Json, json};
 use std::cell::RefCell;
@@ -42,7 +42,8 @@ pub fn write(
             ]),
             // What is shown again has its place elsewhere.
             Block::Figure { id, number, name, .. } if !here.repeats => {
-                let name = input.figure(name).map_or(String::new(), |figure| text(&figure.title));
+                let name =
+                    input.figure(name).map_or(String::new(), |figure| escaped(&figure.title));
                 figures.push([place_on_page(id), number.clone(), name]);
             }
             _ => (),
@@ -51,41 +52,41 @@ pub fn write(
     let year = edition.date.split('-').next().unwrap_or_default();
     let key = format!("{}{year}{}", sources.name, here.prose);
     let key: String = key.chars().filter(char::is_ascii_alphanumeric).collect();
-    let documents = edition.documents.iter().map(|of| (of.page, text(of.name)));
+    let documents = edition.documents.iter().map(|of| (of.page, escaped(of.name)));
     // Its first words, for those who have only a link to it.
     let description = blocks.iter().find_map(|block| match block {
-        Block::Paragraph(text) => Some(spelt(text)),
+        Block::Paragraph(text) => Some(to_spelt_text(text)),
         _ => None,
     });
     let link = |(name, to): &(&str, &str)| {
-        let link = Inline::Link { to: to.to_string(), shown: vec![Inline::Text(name.to_string())] };
+        let link = Inline::Link { to: to.to_string(), words: vec![Inline::Text(name.to_string())] };
         page.inlines(&document::relative_link(link, input.top))
     };
     let parts = json!({
         "file": here.page,
         "markdown": here.markdown,
-        "name": text(sources.name),
-        "version": text(sources.version),
-        "license": text(edition.license),
-        "description": text(&description.unwrap_or_default()),
+        "name": escaped(sources.name),
+        "version": escaped(sources.version),
+        "license": escaped(edition.license),
+        "description": escaped(&description.unwrap_or_default()),
         "picture": edition.cover,
         "links": edition.links.iter().map(link).collect::<Vec<_>>(),
-        "date": text(edition.date),
-        "authors": edition.authors.iter().map(|(name, _)| text(name)).collect::<Vec<_>>(),
+        "date": escaped(edition.date),
+        "authors": edition.authors.iter().map(|(name, _)| escaped(name)).collect::<Vec<_>>(),
         "documents": documents.collect::<Vec<_>>(),
-        "title": text(&spelt(title)),
+        "title": escaped(&to_spelt_text(title)),
         "key": key,
-        "address": text(edition.address),
-        "doi": text(edition.doi),
-        "bibtex": [text(&edition.bibtex_authors()), text(&latex::inlines(title))],
+        "address": escaped(edition.address),
+        "doi": escaped(edition.doi),
+        "bibtex": [escaped(&edition.bibtex_authors()), escaped(&latex::inlines(title))],
         "heading": heading,
-        "byline": text(&edition.byline(here)),
+        "byline": escaped(&edition.byline(here)),
         "sections": sections,
         "figures": figures,
         "body": body,
         "glyphs": outlines(&page.glyphs.borrow()),
     });
-    Error::all(page.errors.into_inner())?;
+    Error::check(page.errors.into_inner())?;
     Ok((parts, page.values.into_inner()))
 }
 
@@ -106,17 +107,17 @@ impl<'a> Page<'a> {
     }
 
     fn blocks(&self, blocks: &[Block]) -> String {
-        let (mut out, mut end) = (String::new(), "");
+        let (mut html, mut end) = (String::new(), "");
         for block in blocks {
             if matches!(block, Block::Heading { .. } | Block::Figure { .. }) {
-                out += std::mem::take(&mut end);
+                html += std::mem::take(&mut end);
             }
             if document::is_abstract(block) {
-                (out, end) = (out + "<section class=\"abstract\">\n", "</section>\n");
+                (html, end) = (html + "<section class=\"abstract\">\n", "</section>\n");
             }
-            out += &self.block(block);
+            html += &self.block(block);
         }
-        out + end
+        html + end
     }
 
     fn block(&self, block: &Block) -> String {
@@ -139,7 +140,7 @@ impl<'a> Page<'a> {
                     "<figure id=\"{}\">{}<figcaption><strong>Figure {number}.</strong> {} <span class=\"origin\">\
                      Picture: <a href=\"figures/{file}\">{file}</a>. {}</span></figcaption></figure>\n",
                     place_on_page(id),
-                    scroll(&format!("Figure {number}"), &picture),
+                    scrollable(&format!("Figure {number}"), &picture),
                     self.inlines(caption),
                     self.inlines(origin)
                 )
@@ -153,15 +154,15 @@ impl<'a> Page<'a> {
             ),
             Block::Table(table) => {
                 let id = table.id.as_ref().map(|id| format!(" id=\"{}\"", place_on_page(id)));
-                let mut out = format!("<figure class=\"table\"{}>", id.unwrap_or_default());
+                let mut html = format!("<figure class=\"table\"{}>", id.unwrap_or_default());
                 let mut name = String::from("Table");
                 if let Some(number) = &table.number {
                     name += &format!(" {number}");
                     let caption = self.inlines(&table.caption);
                     let _ =
-                        write!(out, "<figcaption><strong>{name}.</strong> {caption}</figcaption>");
+                        write!(html, "<figcaption><strong>{name}.</strong> {caption}</figcaption>");
                 }
-                out + &scroll(&name, &self.table(table)) + "</figure>\n"
+                html + &scrollable(&name, &self.table(table)) + "</figure>\n"
             }
             Block::List { start, items } => {
                 let (open, close) = match start {
@@ -181,41 +182,46 @@ impl<'a> Page<'a> {
             Block::Quote(blocks) => {
                 format!("<blockquote>\n{}</blockquote>\n", self.blocks(blocks))
             }
-            Block::Code { text, .. } => code(text),
-            Block::Listing { id, number, caption, item, origin, text, .. } => format!(
+            Block::Code { code, .. } => code_to_html(code),
+            Block::Listing { id, number, caption, item, origin, code, .. } => format!(
                 "<div class=\"listing\" id=\"{}\"><p><strong>Listing {number}.</strong> {}</p>\n<details><summary>{}\
                  </summary>\n{}<p class=\"origin\">{}</p></details></div>\n",
                 place_on_page(id),
                 self.inlines(caption),
                 self.inline(&Inline::Code(item.clone())),
-                code(text),
+                code_to_html(code),
                 self.inlines(origin)
             ),
             Block::Bibliography(entries) => {
-                let mut out = String::from("<ul class=\"references\">\n");
+                let mut html = String::from("<ul class=\"references\">\n");
                 for entry in entries {
                     let id = place_on_page(&format!("ref:{}", entry.key));
-                    let _ = writeln!(out, "<li id=\"{id}\">{}</li>", self.inlines(&entry.text()));
+                    let _ = writeln!(
+                        html,
+                        "<li id=\"{id}\">{}</li>",
+                        self.inlines(&entry.to_inlines())
+                    );
                 }
-                out + "</ul>\n"
+                html + "</ul>\n"
             }
         }
     }
 
-    /// HTML lets no equation stand inside a `<p>`: the sentence goes on in the next one.
+    /// Writes a paragraph. HTML lets no equation stand inside a `<p>`: the sentence goes on in the
+    /// next one.
     fn paragraph(&self, text: &[Inline]) -> String {
-        let mut out = String::new();
+        let mut html = String::new();
         let is_display = |inline: &Inline| matches!(inline, Inline::Display { .. });
         for (i, words) in text.split(is_display).enumerate() {
             let equation = text.iter().filter(|inline| is_display(inline)).nth(i);
             let words = self.inlines(words);
             if !words.trim().is_empty() {
                 let class = if i > 0 { " class=\"on\"" } else { "" };
-                let _ = writeln!(out, "<p{class}>{}</p>", words.trim());
+                let _ = writeln!(html, "<p{class}>{}</p>", words.trim());
             }
-            out += &equation.map_or(String::new(), |equation| self.inline(equation));
+            html += &equation.map_or(String::new(), |equation| self.inline(equation));
         }
-        out
+        html
     }
 
     /// Writes running text. Browsers break lines before and after a formula: what must stay on its
@@ -228,7 +234,7 @@ impl<'a> Page<'a> {
             let after_maths = matches!(before, Some(Inline::Maths(_)));
             match piece {
                 // `$x =$ 3`.
-                Inline::Text(words) if words == " " && before.is_some_and(relates) => {
+                Inline::Text(words) if words == " " && before.is_some_and(ends_in_relation) => {
                     pieces.push(("\u{a0}".into(), true));
                 }
                 Inline::Text(words) => {
@@ -237,26 +243,26 @@ impl<'a> Page<'a> {
                     let (rest, opening) = rest.split_at(rest.trim_end_matches(OPENING).len());
                     let parts = [(closing, true), (rest, false), (opening, false)];
                     let parts = parts.into_iter().filter(|(words, _)| !words.is_empty());
-                    pieces.extend(parts.map(|(words, kept)| (text(words), kept)));
+                    pieces.extend(parts.map(|(words, stays)| (escaped(words), stays)));
                 }
                 piece => {
-                    let last = pieces.last().map_or("", |(text, _)| text);
+                    let last = pieces.last().map_or("", |(html, _)| html);
                     let opens = last.ends_with(OPENING) || last == "\u{a0}";
-                    let kept = match piece {
+                    let stays = match piece {
                         Inline::Maths(_) => opens || matches!(before, Some(Inline::Value { .. })),
                         Inline::Value { .. } => opens || after_maths,
                         _ => false,
                     };
-                    pieces.push((self.inline(piece), kept));
+                    pieces.push((self.inline(piece), stays));
                 }
             }
         }
-        let together = pieces.chunk_by(|_, (_, kept)| *kept);
+        let together = pieces.chunk_by(|_, (_, stays)| *stays);
         let group = |group: &[(String, bool)]| match group {
-            [(text, _)] => text.clone(),
-            all => {
-                let all: String = all.iter().map(|(text, _)| text.as_str()).collect();
-                format!("<span class=\"keep\">{all}</span>")
+            [(html, _)] => html.clone(),
+            several => {
+                let several: String = several.iter().map(|(html, _)| html.as_str()).collect();
+                format!("<span class=\"keep\">{several}</span>")
             }
         };
         together.map(group).collect()
@@ -264,11 +270,11 @@ impl<'a> Page<'a> {
 
     fn inline(&self, inline: &Inline) -> String {
         match inline {
-            Inline::Text(words) => text(words),
+            Inline::Text(words) => escaped(words),
             Inline::Soft => "\n".into(),
             // Long paths may break at their joints.
             Inline::Code(code) => {
-                let code = text(code).replace('/', "/\0").replace("::", "::\0");
+                let code = escaped(code).replace('/', "/\0").replace("::", "::\0");
                 let code = code.replace(',', ",\0").replace('[', "\0[");
                 format!("<code>{}</code>", code.replace('\0', "<wbr/>"))
             }
@@ -293,20 +299,20 @@ impl<'a> Page<'a> {
                     None => ("without number", String::new(), String::new()),
                 };
                 let formula = self.formula(formula, MathDisplay::Block);
-                let formula = scroll(&format!("Equation {name}"), &formula);
+                let formula = scrollable(&format!("Equation {name}"), &formula);
                 format!("<div class=\"equation\"{id}>{formula}{tag}</div>\n")
             }
-            Inline::Value { id, shown } => self.value(id, shown, '\u{a0}'),
-            Inline::Link { to, shown } => {
+            Inline::Value { id, printed } => self.value(id, printed, '\u{a0}'),
+            Inline::Link { to, words } => {
                 // A document is another file here, and a host shows no folder.
                 let of = self.input.edition.documents.iter().find(|of| of.markdown == to);
                 let folder = (to == "data").then_some("data/index.html");
                 let to = document::address(of.map(|of| of.page).or(folder).unwrap_or(to));
-                format!("<a href=\"{}\">{}</a>", escape(&to), self.inlines(shown))
+                format!("<a href=\"{}\">{}</a>", escape(&to), self.inlines(words))
             }
-            Inline::Reference { to, within, shown } => {
+            Inline::Reference { to, within, label } => {
                 let file = within.map_or("", |document| document.page);
-                let sign = shown.chars().next();
+                let sign = label.chars().next();
                 let verdict = Verdict::ALL.iter().find(|verdict| Some(verdict.sign()) == sign);
                 // Elsewhere than in the ledger it opens the card of its statement.
                 let class = verdict.map_or(String::new(), |verdict| {
@@ -319,72 +325,72 @@ impl<'a> Page<'a> {
                     let card = card.unwrap_or_default();
                     format!(" class=\"verdict {name}\" title=\"{words}\"{card}")
                 });
-                format!("<a href=\"{file}#{}\"{class}>{}</a>", place_on_page(to), text(shown))
+                format!("<a href=\"{file}#{}\"{class}>{}</a>", place_on_page(to), escaped(label))
             }
             Inline::Anchor { id, number } => {
                 format!("<span id=\"{}\">{number}</span>", place_on_page(id))
             }
-            Inline::Unresolved { ids, .. } => text(&ids.join("; ")),
+            Inline::Unresolved { ids, .. } => escaped(&ids.join("; ")),
         }
     }
 
     fn formula(&self, formula: &Formula, display: MathDisplay) -> String {
-        let value = |id: &str, shown: &Shown| self.value(id, shown, '\u{202f}');
-        mathml::write(formula, display, value).unwrap_or_else(|what| {
+        let value = |id: &str, printed: &Printed| self.value(id, printed, '\u{202f}');
+        mathml::write(formula, display, value).unwrap_or_else(|problem| {
             // The error names the whole formula, by which its place is found.
-            self.errors.borrow_mut().push(Error::Maths { tex: formula.digits(), what });
+            self.errors.borrow_mut().push(Error::Maths { tex: formula.to_tex(), problem });
             String::new()
         })
     }
 
     /// Writes a value, which opens its card. (Browsers break lines around a `<button>`.)
-    fn value(&self, id: &str, shown: &Shown, blank: char) -> String {
+    fn value(&self, id: &str, printed: &Printed, blank: char) -> String {
         self.values.borrow_mut().insert(id.to_string());
         // A line that ends in an attribute would be read as a blank.
         let id = escape(id).replace('\n', "&#10;");
-        let (class, shown) = match shown {
-            Shown::Words(_) => ("value phrase", self.inlines(&document::printed(shown))),
-            Shown::Number(numeral) => ("value", number(numeral, blank)),
+        let (class, html) = match printed {
+            Printed::Words(_) => ("value phrase", self.inlines(&document::to_inlines(printed))),
+            Printed::Number(numeral) => ("value", number_to_html(numeral, blank)),
         };
-        format!("<span class=\"{class}\" data-card=\"{id}\">{shown}</span>")
+        format!("<span class=\"{class}\" data-card=\"{id}\">{html}</span>")
     }
 }
 
-/// A printed number as text, its power raised.
-fn number(numeral: &Numeral, blank: char) -> String {
-    let mut out = String::new();
+/// Writes a printed number as text, with its power raised.
+fn number_to_html(numeral: &Numeral, blank: char) -> String {
+    let mut html = String::new();
     if !numeral.is_power_alone() {
-        out += &numeral.signed("−");
+        html += &numeral.signed("−");
     }
     if let Some(exponent) = numeral.exponent {
-        let times = if out.is_empty() { "" } else { "\u{202f}×\u{202f}" };
+        let times = if html.is_empty() { "" } else { "\u{202f}×\u{202f}" };
         let minus = if exponent < 0 { "−" } else { "" };
-        let _ = write!(out, "{times}10<sup>{minus}{}</sup>", exponent.unsigned_abs());
+        let _ = write!(html, "{times}10<sup>{minus}{}</sup>", exponent.unsigned_abs());
     }
-    if numeral.percent {
-        out.extend([blank, '%']);
+    if numeral.in_percent {
+        html.extend([blank, '%']);
     }
-    out
+    html
 }
 
 /// Wraps what scrolls sideways where it is too wide.
-fn scroll(name: &str, inner: &str) -> String {
+fn scrollable(name: &str, inner: &str) -> String {
     format!("<div class=\"scroll\" role=\"group\" aria-label=\"{name}\">{inner}</div>")
 }
 
-fn code(words: &str) -> String {
-    format!("<pre><code>{}</code></pre>\n", text(words.trim_end()))
+fn code_to_html(code: &str) -> String {
+    format!("<pre><code>{}</code></pre>\n", escaped(code.trim_end()))
 }
 
 /// Escapes words; a number and its sign of per cent stay on one line.
-fn text(words: &str) -> String {
+fn escaped(words: &str) -> String {
     escape(words).replace(" %", "\u{a0}%")
 }
 
-/// Whether it is a formula that ends before its right side.
-fn relates(inline: &Inline) -> bool {
+/// Returns whether it is a formula that ends before its right side.
+fn ends_in_relation(inline: &Inline) -> bool {
     let Inline::Maths(formula) = inline else { return false };
     let ends = ["=", "<", ">", r"\approx", r"\le", r"\ge", r"\lt", r"\gt", r"\pm"];
-    let tex = formula.digits();
+    let tex = formula.to_tex();
     ends.iter().any(|end| tex.trim_end().ends_with(end))
 }

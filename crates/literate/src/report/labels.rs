@@ -5,14 +5,14 @@ use super::document::{
     Block, Inline, Reference, Table, heading_place, place_on_page, rewrite, visit,
 };
 use super::edition::Document;
-use super::error::Error;
+use super::error::{Error, Thing};
 use crate::claims::Check;
 use std::collections::{BTreeMap, BTreeSet};
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Label {
-    /// What references show: a number, which has brackets for an equation.
-    pub shown: String,
+    /// What references show of it: a number, which has brackets for an equation.
+    pub number: String,
     pub document: Document,
 }
 
@@ -27,31 +27,35 @@ pub struct Labels {
 }
 
 impl Labels {
-    fn add(&mut self, id: &str, shown: &str, document: Document) -> Option<Error> {
-        if self.labels.insert(id.to_string(), Label { shown: shown.into(), document }).is_none() {
+    fn add(&mut self, id: &str, number: &str, document: Document) -> Option<Error> {
+        if self.labels.insert(id.to_string(), Label { number: number.into(), document }).is_none() {
             return self.take_place(id, place_on_page(id), document.page);
         }
-        let what = format!("{id}: two things in the report have this id; give one of them another");
-        Some(Error::Named { thing: format!("#{id}"), what })
+        let problem =
+            format!("{id}: two things in the report have this id; give one of them another");
+        Some(Error::Named { thing: Thing::Id(id.into()), problem })
     }
 
     /// Refuses a place on a page that another id has, of which links could find one only.
     fn take_place(&mut self, id: &str, place: String, page: &'static str) -> Option<Error> {
         let other = self.places.insert((page, place), id.to_string())?;
-        let what = format!("{id}: links cannot tell it from {other}; give one of them another id");
-        Some(Error::Named { thing: format!("#{id}"), what })
+        let problem =
+            format!("{id}: links cannot tell it from {other}; give one of them another id");
+        Some(Error::Named { thing: Thing::Id(id.into()), problem })
     }
 
     /// Refuses keys of references that have one place in the list.
     pub fn add_keys<'a>(&mut self, keys: impl Iterator<Item = &'a str>) -> Result<(), Error> {
         let place = |key| place_on_page(&format!("ref:{key}"));
-        Error::all(keys.filter_map(|key| self.take_place(key, place(key), "references")).collect())
+        Error::check(
+            keys.filter_map(|key| self.take_place(key, place(key), "references")).collect(),
+        )
     }
 
-    /// Adds labels to ids that have none, so that a reference to them is no error.
+    /// Adds labels to ids without a label, so that a reference to them is no error.
     pub fn add_missing<'a>(&mut self, ids: impl Iterator<Item = &'a str>, document: Document) {
         for id in ids {
-            let label = Label { shown: "?".into(), document };
+            let label = Label { number: "?".into(), document };
             self.labels.entry(id.to_string()).or_insert(label);
         }
     }
@@ -136,21 +140,22 @@ impl Labels {
             }
             _ => (),
         });
-        Error::all(errors)
+        Error::check(errors)
     }
 
-    /// Takes the verdicts for `row:`, `mark:` and `sign:`; refuses the place of no statement.
+    /// Takes the signs of verdicts for `row:`, `mark:` and `sign:`; refuses a place of a statement
+    /// that does not exist.
     pub fn add_verdicts(&mut self, claims: &[Check]) -> Result<(), Error> {
         self.signs = claims.iter().map(|claim| (claim.id.clone(), claim.verdict.sign())).collect();
         let mut errors = Vec::new();
         for id in self.labels.keys().filter_map(|id| id.strip_prefix("claim:")) {
             if !self.signs.contains_key(id) {
-                let what = format!("[!claim:{id}]: there is no statement with this id");
+                let problem = format!("[!claim:{id}]: there is no statement with this id");
                 let ids = self.signs.keys().map(String::as_str);
-                errors.push(Error::unknown(format!("#claim:{id}"), what, ids));
+                errors.push(Error::unknown(Thing::Id(format!("claim:{id}")), problem, ids));
             }
         }
-        Error::all(errors)
+        Error::check(errors)
     }
 
     /// Resolves all references of a document, and fills its list of references with what it cites.
@@ -165,7 +170,7 @@ impl Labels {
             // A repeated figure has the number that another document gives it.
             if let Block::Figure { id, number, .. } = block {
                 match self.get(id) {
-                    Some(label) => *number = label.shown.clone(),
+                    Some(label) => *number = label.number.clone(),
                     None => errors.push(self.unknown(id, id)),
                 }
             }
@@ -180,12 +185,12 @@ impl Labels {
         rewrite(blocks, &mut |inline| {
             let Inline::Unresolved { ids, in_sentence } = inline else { return vec![inline] };
             let keys = ids.iter().filter(|id| is_key(id)).count();
-            let found = match keys {
-                0 => self.refer(&ids, here),
+            let inlines = match keys {
+                0 => self.resolve_ids(&ids, here),
                 _ if keys == ids.len() => cite(&ids, in_sentence, &list, library),
                 _ => Err(mixed(&ids)),
             };
-            found.unwrap_or_else(|error| {
+            inlines.unwrap_or_else(|error| {
                 errors.push(error);
                 Vec::new()
             })
@@ -197,73 +202,75 @@ impl Labels {
             }
         }
         if let (Some(first), false) = (list.first(), has_list) {
-            let what = "the document cites this and has no list of references; add a paragraph [@bibliography]";
-            let (thing, what) = (format!("@{}", first.key), format!("[@{}]: {what}", first.key));
-            errors.push(Error::Named { thing, what });
+            let problem = "the document cites this and has no list of references; add a paragraph [@bibliography]";
+            let (thing, problem) =
+                (Thing::Reference(first.key.clone()), format!("[@{}]: {problem}", first.key));
+            errors.push(Error::Named { thing, problem });
         }
-        Error::all(errors)
+        Error::check(errors)
     }
 
-    fn refer(&self, ids: &[String], here: Document) -> Result<Vec<Inline>, Error> {
-        let (asked, several) = (kind(&ids[0]), ids.len() > 1);
-        let lower = asked.to_lowercase();
-        let names = names(&lower).filter(|_| ids.iter().all(|id| kind(id) == asked));
+    fn resolve_ids(&self, ids: &[String], here: Document) -> Result<Vec<Inline>, Error> {
+        let (kind_asked, several) = (kind(&ids[0]), ids.len() > 1);
+        let lower = kind_asked.to_lowercase();
+        let names = kind_names(&lower).filter(|_| ids.iter().all(|id| kind(id) == kind_asked));
         let names = names.ok_or_else(|| mixed(ids))?;
-        let name = names[usize::from(asked != lower)][usize::from(several)];
+        let name = names[usize::from(kind_asked != lower)][usize::from(several)];
         let is_verdict = name.is_empty();
         let words = |text: &str| Inline::Text(text.to_string());
-        let mut out = Vec::new();
+        let mut inlines = Vec::new();
         if several && !is_verdict {
-            out.push(words(&format!("{name}\u{a0}")));
+            inlines.push(words(&format!("{name}\u{a0}")));
         }
         for (i, id) in ids.iter().enumerate() {
-            let suffix = &id[asked.len()..];
+            let suffix = &id[kind_asked.len()..];
             let to = format!("{}{suffix}", if is_verdict { "claim" } else { &lower });
-            let label = self.get(&to).filter(|label| !label.shown.is_empty());
-            let Label { shown, document } = label.ok_or_else(|| self.unknown(id, &to))?;
+            let label = self.get(&to).filter(|label| !label.number.is_empty());
+            let Label { number, document } = label.ok_or_else(|| self.unknown(id, &to))?;
             if i > 0 {
                 let last = i + 1 == ids.len() && !is_verdict;
-                out.push(words(if last { " and " } else { ", " }));
+                inlines.push(words(if last { " and " } else { ", " }));
             }
-            let shown = match self.signs.get(suffix.trim_start_matches(':')) {
+            let label = match self.signs.get(suffix.trim_start_matches(':')) {
                 Some(sign) if lower == "sign" => sign.to_string(),
-                Some(sign) if is_verdict => format!("{sign}\u{a0}{shown}"),
-                _ if several => shown.clone(),
-                _ => format!("{name}\u{a0}{shown}"),
+                Some(sign) if is_verdict => format!("{sign}\u{a0}{number}"),
+                _ if several => number.clone(),
+                _ => format!("{name}\u{a0}{number}"),
             };
             let within = (*document != here).then_some(*document);
-            out.push(Inline::Reference { to, within, shown });
+            inlines.push(Inline::Reference { to, within, label });
         }
-        Ok(if lower == "row" { vec![Inline::Raised(out)] } else { out })
+        Ok(if lower == "row" { vec![Inline::Raised(inlines)] } else { inlines })
     }
 
-    /// The error of a reference to what has no number: a thing without an id, or none.
+    /// Makes the error of a reference to something that has no number or does not exist.
     fn unknown(&self, asked: &str, id: &str) -> Error {
-        let what = match self.get(id) {
+        let problem = match self.get(id) {
             Some(_) => "this section has no number to refer to; link to it by [words](#sec-id)",
             None => "nothing in the report has this id; correct or remove the reference",
         };
-        let numbered = self.labels.iter().filter(|(_, label)| !label.shown.is_empty());
+        let numbered = self.labels.iter().filter(|(_, label)| !label.number.is_empty());
         let alike = numbered.map(|(known, _)| known.as_str());
         let alike = alike.filter(|known| kind(known) == kind(id));
-        Error::unknown(format!("@{asked}"), format!("[@{asked}]: {what}"), alike)
+        Error::unknown(Thing::Reference(asked.into()), format!("[@{asked}]: {problem}"), alike)
     }
 }
 
-/// The kind of an id, `fig` of `fig:3`; all of it if it has none.
+/// Returns the kind of an id, `fig` of `fig:3`, or all of it if it has no kind.
 fn kind(id: &str) -> &str {
     id.split(':').next().unwrap_or_default()
 }
 
-/// Whether an id is a key of references.bib, which may have a colon too, and no kind of id.
+/// Returns whether an id is a key of references.bib, which may have a colon too.
 fn is_key(id: &str) -> bool {
-    !id.contains(':') || names(&kind(id).to_lowercase()).is_none()
+    !id.contains(':') || kind_names(&kind(id).to_lowercase()).is_none()
 }
 
 fn mixed(ids: &[String]) -> Error {
     let ids = ids.join("; ");
-    let what = format!("[@{ids}]: references of different kinds; give each kind its own brackets");
-    Error::Named { thing: format!("@{ids}"), what }
+    let problem =
+        format!("[@{ids}]: references of different kinds; give each kind its own brackets");
+    Error::Named { thing: Thing::Reference(ids), problem }
 }
 
 /// Writes `[@rice1945]` as "[Rice, 1945]", and `@rice1945` in a sentence as "Rice (1945)".
@@ -273,23 +280,27 @@ fn cite(
     list: &[Reference],
     library: &Library,
 ) -> Result<Vec<Inline>, Error> {
-    let mut out = Vec::new();
+    let mut inlines = Vec::new();
     for key in keys {
         let entry = list.iter().find(|entry| entry.key == *key);
         let Reference { names, year, .. } = entry.ok_or_else(|| {
-            let what = "nothing in the report and no entry of references.bib has this id";
-            Error::unknown(format!("@{key}"), format!("[@{key}]: {what}"), library.keys())
+            let problem = "nothing in the report and no entry of references.bib has this id";
+            Error::unknown(
+                Thing::Reference(key.clone()),
+                format!("[@{key}]: {problem}"),
+                library.keys(),
+            )
         })?;
         let (to, within) = (format!("ref:{key}"), None);
         if in_sentence {
-            let shown = format!("{names} ({year})");
-            return Ok(vec![Inline::Reference { to, within, shown }]);
+            let label = format!("{names} ({year})");
+            return Ok(vec![Inline::Reference { to, within, label }]);
         }
-        out.push(Inline::Text(if out.is_empty() { "[" } else { "; " }.into()));
-        out.push(Inline::Reference { to, within, shown: format!("{names}, {year}") });
+        inlines.push(Inline::Text(if inlines.is_empty() { "[" } else { "; " }.into()));
+        inlines.push(Inline::Reference { to, within, label: format!("{names}, {year}") });
     }
-    out.push(Inline::Text("]".into()));
-    Ok(out)
+    inlines.push(Inline::Text("]".into()));
+    Ok(inlines)
 }
 
 /// Refuses an id that does not begin with the kind of what it names.
@@ -299,12 +310,12 @@ pub(super) fn check_kind(kind: &str, id: &str) -> Result<(), Error> {
     if name.is_some_and(|name| !name.is_empty() && name.chars().all(plain)) {
         return Ok(());
     }
-    let what = "followed by letters, digits or any of : - _ .";
-    Err(Error::Markup(format!("the id {id:?} is not valid: write {kind}: {what}")))
+    let problem = "followed by letters, digits or any of : - _ .";
+    Err(Error::Markup(format!("the id {id:?} is not valid: write {kind}: {problem}")))
 }
 
-/// What references call things of a kind: one and several, in short and in full.
-fn names(kind: &str) -> Option<[[&'static str; 2]; 2]> {
+/// Returns what references call things of a kind: one and several, in short and in full.
+fn kind_names(kind: &str) -> Option<[[&'static str; 2]; 2]> {
     Some(match kind {
         "eq" => [["Eq.", "Eqs."], ["Equation", "Equations"]],
         "fig" => [["Fig.", "Figs."], ["Figure", "Figures"]],

@@ -1,7 +1,7 @@
 //! Writes the tree as a document for LaTeX; what surrounds it is the template report.tex.
 
 use super::document::{self, Block, Formula, Inline, Reference, Table, title};
-use super::document::{goes_on, is_abstract, place, plain, printed, spelt};
+use super::document::{goes_on, is_abstract, place, to_inlines, to_plain_text, to_spelt_text};
 use super::edition::{Document, Edition};
 use super::error::Error;
 use super::tex;
@@ -11,7 +11,7 @@ use serde_json::{Value as Json, json};
 /// Returns what report.tex inserts, or the characters that pdflatex does not know.
 pub fn write(blocks: &[Block], document: Document, edition: &Edition) -> Result<Json, Error> {
     let title = title(blocks)?;
-    let authors = edition.authors.iter().map(|(name, of)| [tex::text(name), tex::text(of)]);
+    let authors = edition.authors.iter().map(|(name, of)| [tex::escape(name), tex::escape(of)]);
     let print = json!({
         "letter": document.letter,
         "page": document.page,
@@ -22,47 +22,47 @@ pub fn write(blocks: &[Block], document: Document, edition: &Edition) -> Result<
         "body": body(blocks),
         "listings": listings(blocks),
     });
-    Error::all(tex::unknown(&print.to_string()).into_iter().map(Error::NoLatex).collect())?;
+    Error::check(tex::unknown(&print.to_string()).into_iter().map(Error::NoLatex).collect())?;
     Ok(print)
 }
 
 fn body(blocks: &[Block]) -> String {
-    let mut out = String::new();
+    let mut latex = String::new();
     let (mut before, mut end): (Option<&Block>, _) = (None, "");
     for block in blocks {
         if matches!(block, Block::Heading { .. } | Block::Figure { .. }) {
-            out.push_str(std::mem::take(&mut end));
+            latex.push_str(std::mem::take(&mut end));
         }
         if is_abstract(block) {
-            out.push_str("\n\\begin{abstract}\n");
+            latex.push_str("\n\\begin{abstract}\n");
             (before, end) = (None, "\\end{abstract}\n");
             continue;
         }
         // No paragraph begins before an equation, nor after it when the sentence goes on.
         let goes_on = before.is_some_and(|before| goes_on(before, block));
-        out.push_str(if out.is_empty() || goes_on { "" } else { "\n" });
-        let text = write_block(block);
-        if !text.is_empty() {
-            out = out + text.trim_matches('\n') + "\n";
+        latex.push_str(if latex.is_empty() || goes_on { "" } else { "\n" });
+        let written = write_block(block);
+        if !written.is_empty() {
+            latex = latex + written.trim_matches('\n') + "\n";
         }
         before = Some(block);
     }
-    out + end
+    latex + end
 }
 
 fn listings(blocks: &[Block]) -> String {
     let listing = |block: &Block| {
-        let Block::Listing { id, number, caption, item, file, text, .. } = block else {
+        let Block::Listing { id, number, caption, item, file, code, .. } = block else {
             return None;
         };
-        let (item, file) = (breakable(&tex::text(item)), breakable(&tex::text(file)));
+        let (item, file) = (breakable(&tex::escape(item)), breakable(&tex::escape(file)));
         Some(format!(
             "\n\\begin{{samepage}}\n\\noindent{}\\textbf{{Listing {number}.}} {} \
              \\texttt{{{item}}}, from \\texttt{{{file}}}.\n\\end{{samepage}}\n\
              {{\\scriptsize\\begin{{alltt}}\n{}\n\\end{{alltt}}}}\n",
             label(id),
             inlines(caption),
-            tex::code(text.trim_end())
+            tex::escape_code(code.trim_end())
         ))
     };
     blocks.iter().filter_map(listing).collect()
@@ -97,40 +97,43 @@ fn write_block(block: &Block) -> String {
         Block::Table(data) => table(data),
         Block::List { start, items } => {
             let kind = if start.is_some() { "enumerate" } else { "itemize" };
-            let mut out = format!("\\begin{{{kind}}}\n");
+            let mut latex = format!("\\begin{{{kind}}}\n");
             if let Some(start) = start.filter(|start| *start != 1) {
-                out.push_str(&format!("\\setcounter{{enumi}}{{{}}}\n", start.saturating_sub(1)));
+                latex.push_str(&format!("\\setcounter{{enumi}}{{{}}}\n", start.saturating_sub(1)));
             }
             for item in items {
-                out.push_str(&format!("\\item {}\n", separated(body(item).trim_end())));
+                latex.push_str(&format!("\\item {}\n", separated(body(item).trim_end())));
             }
-            format!("{out}\\end{{{kind}}}")
+            format!("{latex}\\end{{{kind}}}")
         }
         Block::Quote(blocks) => format!("\\begin{{quote}}\n{}\\end{{quote}}", body(blocks)),
-        Block::Code { text, .. } => {
-            format!("{{\\small\\begin{{alltt}}\n{}\n\\end{{alltt}}}}", tex::code(text.trim_end()))
+        Block::Code { code, .. } => {
+            format!(
+                "{{\\small\\begin{{alltt}}\n{}\n\\end{{alltt}}}}",
+                tex::escape_code(code.trim_end())
+            )
         }
         // Listings stand after the text, and paper runs nothing.
         Block::Listing { .. } | Block::Lab { .. } => String::new(),
         Block::Bibliography(entries) => {
             let item = |entry: &Reference| {
                 let place = label(&format!("ref:{}", entry.key));
-                format!("\\item {place}{}\n", inlines(&entry.text()))
+                format!("\\item {place}{}\n", inlines(&entry.to_inlines()))
             };
             format!("{HANGING}{}\\end{{list}}", entries.iter().map(item).collect::<String>())
         }
     }
 }
 
-/// Words as bookmarks of a PDF show them: ASCII without markup.
+/// Returns words as bookmarks of a PDF show them: ASCII without markup.
 fn bookmark(text: &[Inline]) -> String {
     let ascii = |c: char| match c {
         '–' => "-".into(),
         '\u{a0}' => " ".into(),
         c if c.is_ascii() => c.to_string(),
-        c => tex::letter(c).unwrap_or_default().into(),
+        c => tex::letter_name(c).unwrap_or_default().into(),
     };
-    tex::text(&spelt(text).chars().map(ascii).collect::<String>())
+    tex::escape(&to_spelt_text(text).chars().map(ascii).collect::<String>())
 }
 
 /// The list of references: its second lines are indented.
@@ -142,16 +145,16 @@ fn label(id: &str) -> String {
 }
 
 pub fn inlines(list: &[Inline]) -> String {
-    let mut out = String::new();
+    let mut latex = String::new();
     for (i, piece) in list.iter().enumerate() {
         // A blank line around an equation would begin a paragraph.
         let is_display = |j: usize| matches!(list.get(j), Some(Inline::Display { .. }));
         if *piece == Inline::Soft && (is_display(i + 1) || i > 0 && is_display(i - 1)) {
             continue;
         }
-        out.push_str(&inline(piece));
+        latex.push_str(&inline(piece));
     }
-    out
+    latex
 }
 
 /// Separates a bracket or a star from `\\` or `\item`, which would take it as an argument.
@@ -162,19 +165,19 @@ fn separated(text: &str) -> String {
 
 fn inline(inline: &Inline) -> String {
     match inline {
-        Inline::Text(text) => tex::text(text),
+        Inline::Text(text) => tex::escape(text),
         Inline::Soft => "\n".into(),
         Inline::Code(code) => {
             // Two hyphens in a row are set as a dash.
-            let code = tex::text(code).replace("--", "-{}-");
+            let code = tex::escape(code).replace("--", "-{}-");
             format!("\\texttt{{{}}}", breakable(&code))
         }
         Inline::Emphasis(inner) => format!("\\emph{{{}}}", inlines(inner)),
         Inline::Raised(inner) => format!("\\textsuperscript{{{}}}", inlines(inner)),
         Inline::Strong(inner) => format!("\\textbf{{{}}}", inlines(inner)),
-        Inline::Maths(formula) => format!("${}$", maths(formula)),
+        Inline::Maths(formula) => format!("${}$", formula_to_latex(formula)),
         Inline::Display { formula, id, number } => {
-            let maths = maths(formula);
+            let maths = formula_to_latex(formula);
             match id {
                 Some(id) => format!(
                     "\n\\begin{{equation}}\n{maths}\n\\tag{{{number}}}\\label{{{id}}}\n\\end{{equation}}\n"
@@ -182,29 +185,31 @@ fn inline(inline: &Inline) -> String {
                 None => format!("\n\\begin{{equation*}}\n{maths}\n\\end{{equation*}}\n"),
             }
         }
-        Inline::Value { id, shown } => tex::value(id, &inlines(&printed(shown))),
-        Inline::Link { to, shown } if to.contains("://") => {
-            let shown = inlines(shown);
-            let bare = shown.starts_with("http");
-            let shown = if bare { breakable(&shown).replace('(', "\\allowbreak(") } else { shown };
-            format!("\\href{{{}}}{{{}}}", address(to), shown)
+        Inline::Value { id, printed } => tex::origin_link(id, &inlines(&to_inlines(printed))),
+        Inline::Link { to, words } if to.contains("://") => {
+            let mut words = inlines(words);
+            if words.starts_with("http") {
+                words = breakable(&words).replace('(', "\\allowbreak(");
+            }
+            format!("\\href{{{}}}{{{words}}}", address(to))
         }
         // A PDF is read without the files of the report, so only the words are shown.
-        Inline::Link { shown, .. } => inlines(shown),
-        Inline::Reference { to, within: None, shown } => {
-            format!("\\hyperref[{}]{{{}}}", place(to), tex::text(shown))
+        Inline::Link { words, .. } => inlines(words),
+        Inline::Reference { to, within: None, label: words } => {
+            format!("\\hyperref[{}]{{{}}}", place(to), tex::escape(words))
         }
-        Inline::Reference { shown, .. } => tex::text(shown),
+        Inline::Reference { label, .. } => tex::escape(label),
         Inline::Anchor { id, number } => format!("{}{number}", label(id)),
-        Inline::Unresolved { ids, .. } => tex::text(&ids.join("; ")),
+        Inline::Unresolved { ids, .. } => tex::escape(&ids.join("; ")),
     }
 }
 
-fn maths(formula: &Formula) -> String {
-    tex::maths(&formula.tex(|id, shown| tex::value(id, &shown.tex())))
+fn formula_to_latex(formula: &Formula) -> String {
+    tex::escape_formula(&formula.to_tex_with(|id, printed| tex::origin_link(id, &printed.to_tex())))
 }
 
-/// Long paths and addresses in code may break after `::`, `/`, `\_`, `,` and `]`, and before `[`.
+/// Allows long paths and addresses in code to break after `::`, `/`, `\_`, `,` and `]`, and before
+/// `[`.
 fn breakable(code: &str) -> String {
     code.replace("::", "::\\allowbreak{}")
         .replace('/', "/\\allowbreak{}")
@@ -238,9 +243,9 @@ struct Column {
 }
 
 impl Column {
-    fn of(table: &Table, i: usize, align: Alignment) -> Self {
+    fn new(table: &Table, i: usize, align: Alignment) -> Self {
         let rows = table.rows.iter().chain([&table.head]);
-        let cells: Vec<String> = rows.map(|row| plain(&row[i])).collect();
+        let cells: Vec<String> = rows.map(|row| to_plain_text(&row[i])).collect();
         let width = cells.iter().map(|cell| cell.chars().count()).max().unwrap_or(0).max(3);
         let words = cells.iter().flat_map(|cell| cell.split_whitespace());
         let word = words.map(|word| word.chars().count()).max().unwrap_or(0).min(24);
@@ -255,7 +260,7 @@ impl Column {
 
 fn table(table: &Table) -> String {
     let columns = table.columns.iter().enumerate();
-    let columns: Vec<Column> = columns.map(|(i, align)| Column::of(table, i, *align)).collect();
+    let columns: Vec<Column> = columns.map(|(i, align)| Column::new(table, i, *align)).collect();
     let total: usize = columns.iter().map(|column| column.width + 2).sum();
     let least: usize = columns.iter().map(|column| column.least).sum();
     let gaps = GAPS * columns.len() as f64;
@@ -265,7 +270,7 @@ fn table(table: &Table) -> String {
     let line = if across { LINE * 3 / 2 } else { LINE };
     let wraps = total > line;
     let layout = if wraps {
-        shared(&columns, line as f64, (line as f64 - gaps - least as f64).max(0.0))
+        shared_layout(&columns, line as f64, (line as f64 - gaps - least as f64).max(0.0))
     } else {
         columns.iter().map(|column| column.letter).collect()
     };
@@ -273,28 +278,28 @@ fn table(table: &Table) -> String {
         let cells: Vec<String> = cells.iter().map(|cell| inlines(cell)).collect();
         format!("{} \\\\\n", separated(&cells.join(" & ").replace('\n', " ")))
     };
-    let mut out = String::from(if across { "\\begin{landscape}\n" } else { "" });
+    let mut latex = String::from(if across { "\\begin{landscape}\n" } else { "" });
     let gap = if tight { "\\setlength{\\tabcolsep}{3pt}\n" } else { "" };
-    out.push_str(&format!("{{\\footnotesize\n{gap}\\begin{{longtable}}{{{layout}}}\n"));
+    latex.push_str(&format!("{{\\footnotesize\n{gap}\\begin{{longtable}}{{{layout}}}\n"));
     if table.number.is_some() {
         let label = table.id.as_ref().map(|id| format!("\\label{{{id}}}")).unwrap_or_default();
-        out.push_str(&format!("\\caption{{{}}}{label}\\\\\n", inlines(&table.caption)));
+        latex.push_str(&format!("\\caption{{{}}}{label}\\\\\n", inlines(&table.caption)));
     }
     let head = row(&table.head);
     for end in ["\\endfirsthead\n", "\\endhead\n\\bottomrule\n\\endlastfoot\n"] {
-        out.push_str(&format!("\\toprule\n{head}\\midrule\n{end}"));
+        latex.push_str(&format!("\\toprule\n{head}\\midrule\n{end}"));
     }
     for cells in &table.rows {
-        out.push_str(&row(cells));
-        out.push_str(if wraps { "\\addlinespace[2pt]\n" } else { "" });
+        latex.push_str(&row(cells));
+        latex.push_str(if wraps { "\\addlinespace[2pt]\n" } else { "" });
     }
-    out.push_str("\\end{longtable}}");
-    out + if across { "\n\\end{landscape}" } else { "" }
+    latex.push_str("\\end{longtable}}");
+    latex + if across { "\n\\end{landscape}" } else { "" }
 }
 
 /// Lays out columns that do not all fit: short ones keep their width, and the long ones share what
 /// is free beyond their longest words, by the square roots of their widths.
-fn shared(columns: &[Column], line: f64, free: f64) -> String {
+fn shared_layout(columns: &[Column], line: f64, free: f64) -> String {
     let long = columns.iter().filter(|column| column.width > SHORT);
     let weights: f64 = long.map(|column| (column.width as f64).sqrt()).sum();
     let column = |Column { letter, width, least }: &Column| {

@@ -55,6 +55,6 @@ pub fn figures(figures: &[Figure]) -> Vec<FigureEntry> {
     figures.iter().map(figure).collect()
 }
 
-pub fn read(text: &str) -> Result<Ledger, Error> {
-    serde_json::from_str(text).map_err(|e| Error::Template(format!("ledger.json: {e}")))
+pub fn read(json: &str) -> Result<Ledger, Error> {
+    serde_json::from_str(json).map_err(|e| Error::Template(format!("ledger.json: {e}")))
 }

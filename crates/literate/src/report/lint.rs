@@ -40,15 +40,15 @@ impl Declared {
 
     /// Returns whether the word at this offset stands in a declared phrase, perhaps in two lines.
     fn allows(&self, text: &str, start: usize, word: &str) -> bool {
-        let stands = |phrase: &str, at: usize| {
-            let begin = start.checked_sub(at);
-            let found = begin.and_then(|begin| text.get(begin..begin + phrase.len()));
-            found.is_some_and(|found| found.replace('\n', " ").eq_ignore_ascii_case(phrase))
+        let stands = |phrase: &str, offset: usize| {
+            let begin = start.checked_sub(offset);
+            let words = begin.and_then(|begin| text.get(begin..begin + phrase.len()));
+            words.is_some_and(|words| words.replace('\n', " ").eq_ignore_ascii_case(phrase))
         };
         let word = word.to_ascii_lowercase();
         self.literal.iter().flat_map(|group| &group.phrases).any(|phrase| {
             let phrase = phrase.to_ascii_lowercase();
-            phrase.match_indices(&word).any(|(at, _)| stands(&phrase, at))
+            phrase.match_indices(&word).any(|(offset, _)| stands(&phrase, offset))
         })
     }
 }
@@ -67,45 +67,45 @@ fn is_number_word(word: &str) -> bool {
     LISTS[0].contains(word)
 }
 
-/// Finds hard-coded numbers in a part of a text, with their offsets; marks are skipped.
-pub fn words(text: &str, part: Range<usize>, declared: &Declared) -> Vec<(usize, String)> {
+/// Returns the hard-coded numbers in a part of a text, with their offsets; marks are skipped.
+pub fn find_numbers(text: &str, part: Range<usize>, declared: &Declared) -> Vec<(usize, String)> {
     let is_word = |c: char| c.is_alphanumeric() || c == '_';
-    let (mut found, mut at) = (Vec::new(), part.start);
+    let (mut numbers, mut offset) = (Vec::new(), part.start);
     // The rest of a word that began before this part was checked there.
-    if text[..at].ends_with(is_word) {
-        at = part.end - text[at..part.end].trim_start_matches(is_word).len();
+    if text[..offset].ends_with(is_word) {
+        offset = part.end - text[offset..part.end].trim_start_matches(is_word).len();
     }
-    while let Some(c) = text[at..part.end].chars().next() {
-        let (start, rest) = (at, &text[at..part.end]);
+    while let Some(c) = text[offset..part.end].chars().next() {
+        let (start, rest) = (offset, &text[offset..part.end]);
         let escaped = text[..start].strip_suffix('\\').filter(|_| c.is_numeric());
         let is_literal = escaped.is_some_and(|before| is_name(before, &text[start..]));
-        at += match c {
+        offset += match c {
             _ if is_literal => rest.find(ends_literal).unwrap_or(rest.len()),
             OPEN => rest.find(CLOSE).unwrap_or(rest.len()),
             c if is_word(c) => rest.find(|c| !is_word(c)).unwrap_or(rest.len()),
             c => c.len_utf8(),
         };
-        let word = &text[start..at];
+        let word = &text[start..offset];
         let mut numeral = "";
         if c.is_numeric() && !is_literal {
             let signs = rest.split(|c: char| !(c.is_numeric() || ".,".contains(c))).next();
             numeral = signs.unwrap_or_default().trim_end_matches(['.', ',']);
-            at = at.max(start + numeral.len());
+            offset = offset.max(start + numeral.len());
         } else if is_number_word(word) {
             // With a hyphen before a word that is not a number it names a kind: *two-sided*.
-            let next = text[at..].strip_prefix('-').unwrap_or_default();
+            let next = text[offset..].strip_prefix('-').unwrap_or_default();
             let next = next.split(|c: char| !c.is_alphabetic()).next().unwrap_or_default();
             let names_kind = !next.is_empty() && !is_number_word(next) && next != "one";
             numeral = if names_kind { "" } else { word };
         }
         if !numeral.is_empty() && !declared.allows(text, start, numeral) {
-            found.push((start, numeral.to_string()));
+            numbers.push((start, numeral.to_string()));
         }
     }
-    found
+    numbers
 }
 
-/// Whether a character ends what a backslash before a number makes literal: `Python \3.11`.
+/// Returns whether a character ends what a backslash before a number makes literal: `Python \3.11`.
 fn ends_literal(c: char) -> bool {
     c.is_whitespace() || c == '|' || c == OPEN
 }
@@ -115,12 +115,13 @@ fn literal_digit(sign: &str) -> Option<&str> {
     sign.strip_prefix('\\').filter(|digit| digit.starts_with(|c: char| c.is_ascii_digit()))
 }
 
-pub fn literal(text: &str) -> String {
+pub fn without_backslashes(text: &str) -> String {
     tex::signs(text).map(|sign| literal_digit(sign).unwrap_or(sign)).collect()
 }
 
-/// Whether a number behind a backslash is one of an address, `doi:`, a year, or a version behind a
-/// name; that is no quantity with a unit, nor behind the first word of a sentence.
+/// Returns whether a number behind a backslash belongs to an address, `doi:`, is a year, or is a
+/// version behind a name. It does not if it is a quantity with a unit, or stands behind the first
+/// word of a sentence.
 fn is_name(before: &str, number: &str) -> bool {
     let token = number.split(ends_literal).next().unwrap_or_default();
     let behind = number[token.len()..].split_whitespace().next().unwrap_or_default();
@@ -149,13 +150,20 @@ fn unit(text: &str) -> Option<String> {
     UNITS.split_whitespace().any(|unit| unit == first).then_some(unit)
 }
 
-/// Whether a point behind it ends a sentence or a name, and begins no number.
+/// Returns whether a point behind this character ends a sentence or a name, and begins no number.
 fn is_word_end(c: char) -> bool {
     !c.is_whitespace() && !"([".contains(c)
 }
 
-/// Returns what beside a value changes its unit or its sign; formulas have units in `\mathrm`.
-pub fn beside(before: &str, after: &str, of: &Value, style: Style, maths: bool) -> Option<String> {
+/// Describes what stands beside a value and changes its unit or its sign, or returns `None` if
+/// nothing does; formulas have units in `\mathrm`.
+pub fn conflict(
+    before: &str,
+    after: &str,
+    value: &Value,
+    style: Style,
+    maths: bool,
+) -> Option<String> {
     let tex = [r"\,", r"\;", r"\ ", "~", " ", "\u{a0}", "\u{202f}"];
     // Emphasis, links and formulas do not part a sign from its value.
     let marks = |c: char| "*_[".contains(c) && !maths;
@@ -179,28 +187,29 @@ pub fn beside(before: &str, after: &str, of: &Value, style: Style, maths: bool) 
     let is_after =
         |text: &str| if maths { text.ends_with(digit) } else { !text.ends_with(is_word_end) };
     let after_point = inside.strip_suffix('.').is_some_and(is_after);
-    let is_number = !matches!(of.number, Number::Text(_));
+    let is_number = !matches!(value.number, Number::Text(_));
     let goes_on = |rest: &str| !maths && rest.starts_with(OPEN);
     let before_point = maths && after.strip_prefix('.').is_some_and(|rest| rest.starts_with(digit));
     if is_number && (after_point || before_point || glued.into_iter().any(goes_on)) {
-        let what = "reads as one number with what stands beside it; put a blank between";
-        return Some(format!("«{}» {what}", of.id));
+        let problem = "reads as one number with what stands beside it; put a blank between";
+        return Some(format!("«{}» {problem}", value.id));
     }
-    let own = if style.percent { "%" } else { &of.unit.trim_matches('$').replace('μ', "µ") };
-    if style.percent && !of.unit.is_empty() {
-        let what = "which `percent` would change; write it without";
-        return Some(format!("«{}» has the unit {}, {what}", of.id, of.unit));
+    let own =
+        if style.in_percent { "%" } else { &value.unit.trim_matches('$').replace('μ', "µ") };
+    if style.in_percent && !value.unit.is_empty() {
+        let problem = "which `percent` would change; write it without";
+        return Some(format!("«{}» has the unit {}, {problem}", value.id, value.unit));
     }
     if let Some(typed) = typed
-        && (style.percent || own != typed && (!own.is_empty() || typed == "%"))
+        && (style.in_percent || own != typed && (!own.is_empty() || typed == "%"))
     {
-        let what = "write it by the value's own unit or by «… | percent»";
-        return Some(format!("{typed} follows «{}», whose unit is {own:?}; {what}", of.id));
+        let problem = "write it by the value's own unit or by «… | percent»";
+        return Some(format!("{typed} follows «{}», whose unit is {own:?}; {problem}", value.id));
     }
     let sign = before.strip_suffix(['-', '−']).filter(|_| !maths || before != inside)?;
     let begins = |c: char| c.is_whitespace() || r"(|“$\*[".contains(c);
     let begins = sign.chars().next_back().is_none_or(begins);
-    begins.then(|| format!("a minus before «{}» changes its sign; compute it so", of.id))
+    begins.then(|| format!("a minus before «{}» changes its sign; compute it so", value.id))
 }
 
 /// Signs that end a side of a relation.
@@ -239,25 +248,27 @@ fn sides(tex: &str) -> Vec<(String, bool)> {
     let sides = sides.iter().map(|(side, equals)| (whole(side), *equals));
     let mut sides: Vec<_> = sides.filter(|(side, _)| !side.is_empty()).collect();
     // `i = 2, \dots, n` counts.
-    for at in 1..sides.len() {
-        sides[at - 1].1 &= ![r"\dots", r"\ldots", "…"].contains(&sides[at].0.as_str());
+    for index in 1..sides.len() {
+        sides[index - 1].1 &= ![r"\dots", r"\ldots", "…"].contains(&sides[index].0.as_str());
     }
     sides
 }
 
 const EQUALS: [&str; 5] = ["=", "≈", r"\approx", r"\simeq", r"\sim"];
 
-/// Finds a hard-coded number in a formula; none if each number is a part of mathematics. `0` and
-/// `1` alone are allowed: they are as much words as numbers; so are fractions with a digit above.
-pub fn formula(tex: &str) -> Option<String> {
+/// Returns a hard-coded number in a formula, or `None` if each number is a part of mathematics. `0`
+/// and `1` alone are allowed, since they are as much words as numbers, and so are fractions with
+/// one digit above.
+pub fn number_in_formula(tex: &str) -> Option<String> {
     let sides = sides(tex);
     let digits = |text: &str| text.chars().filter(char::is_ascii_digit).count();
     let is_hard_coded = |(side, equals): &&(String, bool)| {
         let fraction =
             [r"\frac{", r"\dfrac{", r"\tfrac{"].iter().find_map(|of| side.strip_prefix(of));
         let bare = fraction.unwrap_or(side);
-        let above =
-            bare.split_once(if fraction.is_some() { '}' } else { '/' }).map(|(above, _)| above);
+        let numerator = bare
+            .split_once(if fraction.is_some() { '}' } else { '/' })
+            .map(|(numerator, _)| numerator);
         let long = |text: &str| text.contains('.') || digits(text) > 1;
         // One letter behind a number is a unit, or a factor of a decimal.
         let letter = tex::signs(bare)
@@ -268,8 +279,8 @@ pub fn formula(tex: &str) -> Option<String> {
         let rest = factor.map_or(bare, |letter| &bare[..bare.len() - letter.len()]);
         let number = digits(rest) > 0 && rest.chars().all(|c| DIGITS.contains(c) || c == '/');
         let small = ["0", "1", "-1", "−1"].contains(&side.as_str());
-        let alone = (sides.len() == 1 || *equals) && above.is_none() && !small;
-        number && (long(above.unwrap_or(bare)) || alone) || is_number_word(side)
+        let alone = (sides.len() == 1 || *equals) && numerator.is_none() && !small;
+        number && (long(numerator.unwrap_or(bare)) || alone) || is_number_word(side)
     };
     sides.iter().find(is_hard_coded).map(|(side, _)| side.clone())
 }
@@ -282,12 +293,15 @@ mod tests {
         let declared =
             "[[literal]]\nwhy = \"a collision has them\"\nphrases = [\"two masses\", \"at 100 %\"]";
         let declared = Declared::read(declared).unwrap();
-        words(text, 0..text.len(), &declared).into_iter().map(|(_, numeral)| numeral).collect()
+        find_numbers(text, 0..text.len(), &declared)
+            .into_iter()
+            .map(|(_, numeral)| numeral)
+            .collect()
     }
 
     #[test]
     fn numerals_in_words_are_found() {
-        for (text, numerals) in [
+        for (sentence, numerals) in [
             ("rises at 0.12, and 3.", "0.12 3"),
             ("the 2nd of 1,000, n=4, ½, Ⅻ, x²", "2 1,000 4 ½ Ⅻ"),
             ("Two rows,\nmore than a hundred", "Two hundred"),
@@ -299,12 +313,12 @@ mod tests {
             (r"takes \98.98 s, Waits \7 s, at \0.5, in \2007", "98.98 7 0.5"),
             (r"Python \3.11, doi:\10.1000/182.4 and 3.11", "3.11"),
         ] {
-            assert_eq!(found(text).join(" "), numerals, "{text}");
+            assert_eq!(found(sentence).join(" "), numerals, "{sentence}");
         }
         let value = super::super::mark::framed("rows[x=12].mean", "significant2");
         assert_eq!(found(&format!("at {value} or 3")), ["3"]);
-        let text = "k_12";
-        assert_eq!(words(text, 2..4, &Declared::default()), [], "the part of a word");
+        let sentence = "k_12";
+        assert_eq!(find_numbers(sentence, 2..4, &Declared::default()), [], "the part of a word");
         assert!(Declared::read("[[literal]]\nwhy = \" \"\nphrases = [\"two\"]").is_err());
     }
 
@@ -320,18 +334,19 @@ mod tests {
                 false,
             ),
         ] {
-            for (text, unit) in line.split('|').map(|one| one.split_once(',').unwrap()) {
-                let (before, after) = text.split_once('V').unwrap();
-                let of = Value { unit: unit.trim().into(), ..Value::real("x", 0.5, 1) };
-                let found = beside(before, after, &of, Style::default(), false);
-                assert_eq!(found.is_some(), wrong, "{text}: {found:?}");
+            for (sentence, unit) in line.split('|').map(|one| one.split_once(',').unwrap()) {
+                let (before, after) = sentence.split_once('V').unwrap();
+                let value = Value { unit: unit.trim().into(), ..Value::real("x", 0.5, 1) };
+                let problem = conflict(before, after, &value, Style::default(), false);
+                assert_eq!(problem.is_some(), wrong, "{sentence}: {problem:?}");
             }
         }
-        let of = Value { unit: "ms".into(), ..Value::real("x", 0.5, 1) };
-        let percent = Style { percent: true, ..Style::default() };
-        let found = beside("", "", &of, percent, false).unwrap();
-        assert!(found.contains("which `percent` would change"), "{found}");
-        let of_maths = |before, after| beside(before, after, &of, Style::default(), true).is_some();
+        let value = Value { unit: "ms".into(), ..Value::real("x", 0.5, 1) };
+        let percent = Style { in_percent: true, ..Style::default() };
+        let problem = conflict("", "", &value, percent, false).unwrap();
+        assert!(problem.contains("which `percent` would change"), "{problem}");
+        let of_maths =
+            |before, after| conflict(before, after, &value, Style::default(), true).is_some();
         assert!(of_maths("-$", "$") && of_maths("$0.", "$") && of_maths("$", ".5$"));
         let maths = |after| of_maths("$-", after);
         assert_eq!(
@@ -347,14 +362,14 @@ mod tests {
             \begin{aligned} a &= b \\ c &= 12 \end{aligned} | \delta < 8.9\times10^{-4} |
             v = 0.35 \omega | N = 6 | T = 99 s | \frac{355}{113} | x = 355/113 | e = \0.5 | T = \99 s";
         for number in numbers.split('|') {
-            assert!(formula(number.trim()).is_some(), "{number}");
+            assert!(number_in_formula(number.trim()).is_some(), "{number}");
         }
         let fine = r"= 0 | \approx 1 | k \ge 3 . | i = 2, \dots | \frac12 | n = \frac12 | v = 2\pi | x = 12 y |
             \frac{1}{2} | x = 1/2 | f = -1 | x_{12} | 10^{n} |
             2 \text{ of } n | \sum_{i=12}^N i |
             f(1, 12) = k | \sigma = \frac{1}{12}";
         for fine in fine.split('|') {
-            assert_eq!(formula(fine.trim()), None, "{fine}");
+            assert_eq!(number_in_formula(fine.trim()), None, "{fine}");
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Marks values in filled prose by private-use characters, which Tera and Markdown leave alone.
 //!
 //! A mark holds the id of a value and the filters for its digits. Marks without an id hold the
-//! place in the template: [`marked`] puts them around each tag, and
+//! place in the template: [`with_places`] puts them around each tag, and
 //! [`Filled::add`](super::filled::Filled::add) takes them out again.
 
 use crate::print::Style;
@@ -32,27 +32,27 @@ fn moved_back(c: char) -> char {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Piece<'a> {
     Text(&'a str),
-    Value { id: String, shown: &'a str },
+    Value { id: String, filters: &'a str },
 }
 
-pub fn framed(id: &str, shown: &str) -> String {
+pub fn framed(id: &str, filters: &str) -> String {
     let id: String = id.chars().map(moved).collect();
-    format!("{OPEN}{id}{NEXT}{shown}{CLOSE}")
+    format!("{OPEN}{id}{NEXT}{filters}{CLOSE}")
 }
 
 pub fn pieces(text: &str) -> Vec<Piece<'_>> {
-    let mut out = Vec::new();
+    let mut pieces = Vec::new();
     let mut rest = text;
     while let Some((before, mark)) = rest.split_once(OPEN) {
         let Some((mark, after)) = mark.split_once(CLOSE) else { break };
-        let Some((id, shown)) = mark.split_once(NEXT) else { break };
+        let Some((id, filters)) = mark.split_once(NEXT) else { break };
         let id = id.chars().map(moved_back).collect();
-        out.extend((!before.is_empty()).then_some(Piece::Text(before)));
-        out.push(Piece::Value { id, shown });
+        pieces.extend((!before.is_empty()).then_some(Piece::Text(before)));
+        pieces.push(Piece::Value { id, filters });
         rest = after;
     }
-    out.extend((!rest.is_empty()).then_some(Piece::Text(rest)));
-    out
+    pieces.extend((!rest.is_empty()).then_some(Piece::Text(rest)));
+    pieces
 }
 
 pub fn ids(text: &str) -> impl Iterator<Item = String> + '_ {
@@ -62,48 +62,48 @@ pub fn ids(text: &str) -> impl Iterator<Item = String> + '_ {
     })
 }
 
-/// The mark of a value with one more word of a filter; none for other text.
-pub fn with(mark: &str, word: &str) -> Option<String> {
+/// Adds a filter to the mark of a value; returns `None` if the text is no mark.
+pub fn with_filter(mark: &str, word: &str) -> Option<String> {
     match pieces(mark).as_slice() {
-        [Piece::Value { id, shown }] => Some(framed(id, &format!("{shown} {word}"))),
+        [Piece::Value { id, filters }] => Some(framed(id, &format!("{filters} {word}"))),
         _ => None,
     }
 }
 
-/// What the words of filters ask for: `percent`, `significant3`.
-pub fn style(words: &str) -> Style {
+/// Returns the style that filters ask for: `percent`, `significant3`.
+pub fn parse_filters(words: &str) -> Style {
     let mut style = Style::default();
     for word in words.split_whitespace() {
         match word.strip_prefix("significant") {
             Some(digits) => style.digits = digits.parse().ok().map(Digits::Significant),
-            None => style.percent |= word == "percent",
+            None => style.in_percent |= word == "percent",
         }
     }
     style
 }
 
-/// The offset in the template that the rest of a mark without an id holds.
-pub fn place_of(mark: &str) -> Option<usize> {
+/// Returns the offset in the template that the rest of a mark without an id holds.
+pub fn offset_in(mark: &str) -> Option<usize> {
     let (place, _) = mark.strip_prefix(NEXT)?.split_once(CLOSE)?;
     place.trim_end_matches(['t', 'x']).parse().ok()
 }
 
 /// Adds to a template a mark before each `«` and after each `»`, `%>` and `#>`, with the offset
 /// there, and whether a tag writes what follows.
-pub fn marked(text: &str) -> String {
-    let (mut out, mut at) = (String::with_capacity(2 * text.len()), 0);
-    for (found, sign) in text.match_indices(['«', '»', '>']) {
-        if found < at || sign == ">" && !text[..found].ends_with(['%', '#']) {
+pub fn with_places(text: &str) -> String {
+    let (mut marked, mut written) = (String::with_capacity(2 * text.len()), 0);
+    for (offset, sign) in text.match_indices(['«', '»', '>']) {
+        if offset < written || sign == ">" && !text[..offset].ends_with(['%', '#']) {
             continue;
         }
-        let end = if sign == "«" { found } else { found + sign.len() };
+        let end = if sign == "«" { offset } else { offset + sign.len() };
         // A tag with a minus takes the blanks behind it: the mark must not stop it.
         let blanks = text[end..].len() - text[end..].trim_start().len();
-        let end = if text[..found].ends_with("-%") { end + blanks } else { end };
+        let end = if text[..offset].ends_with("-%") { end + blanks } else { end };
         let kind = if sign == "«" { "t" } else { "x" };
-        out += &text[at..end];
-        out += &framed("", &format!("{end}{kind}"));
-        at = end;
+        marked += &text[written..end];
+        marked += &framed("", &format!("{end}{kind}"));
+        written = end;
     }
-    out + &text[at..]
+    marked + &text[written..]
 }

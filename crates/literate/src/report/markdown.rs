@@ -15,19 +15,19 @@ use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
 pub fn write(blocks: &[Block]) -> String {
-    let (mut texts, mut before): (Vec<String>, Option<&Block>) = (Vec::new(), None);
-    for one in blocks {
-        let text = block(one).trim_end().to_string();
+    let (mut pieces, mut before): (Vec<String>, Option<&Block>) = (Vec::new(), None);
+    for next in blocks {
+        let markdown = block(next).trim_end().to_string();
         let is_list = |block: &Block| matches!(block, Block::List { .. });
         // Without a comment between, Markdown makes one list of two.
-        texts.extend((before.is_some_and(is_list) && is_list(one)).then(|| "<!-- -->".into()));
-        texts.extend(Some(text).filter(|text| !text.is_empty()));
-        before = Some(one);
+        pieces.extend((before.is_some_and(is_list) && is_list(next)).then(|| "<!-- -->".into()));
+        pieces.extend(Some(markdown).filter(|markdown| !markdown.is_empty()));
+        before = Some(next);
     }
-    texts.join("\n\n") + "\n"
+    pieces.join("\n\n") + "\n"
 }
 
-fn lines(text: &str, before: &str) -> String {
+fn prefix_lines(text: &str, before: &str) -> String {
     let line = |line: &str| format!("{before}{line}").trim_end().to_string();
     text.lines().map(line).collect::<Vec<_>>().join("\n")
 }
@@ -39,9 +39,9 @@ fn block(block: &Block) -> String {
             let (hashes, id) = ("#".repeat(usize::from(*level)), id.as_deref().map(anchor));
             let mut words = inlines(text).trim_end().to_string();
             // Signs at the end would close the heading.
-            let kept = words.trim_end_matches('#').len();
-            if kept < words.len() && words[..kept].ends_with(' ') {
-                words.insert(kept, '\\');
+            let length = words.trim_end_matches('#').len();
+            if length < words.len() && words[..length].ends_with(' ') {
+                words.insert(length, '\\');
             }
             format!("{hashes} {}{number}{words}", id.unwrap_or_default())
         }
@@ -63,30 +63,34 @@ fn block(block: &Block) -> String {
         Block::List { start, items } => {
             let item = |(i, item): (usize, &Vec<Block>)| {
                 let marker = start.map_or("- ".into(), |start| format!("{}. ", start + i as u64));
-                let deeper = lines(&write(item), &" ".repeat(marker.len()));
+                let deeper = prefix_lines(&write(item), &" ".repeat(marker.len()));
                 marker + deeper.trim_start()
             };
             items.iter().enumerate().map(item).collect::<Vec<_>>().join("\n")
         }
-        Block::Quote(blocks) => lines(&write(blocks), "> "),
-        Block::Code { language, text } => {
-            let fence = fence(text, 3);
-            format!("{fence}{language}\n{}\n{fence}", text.trim_end())
+        Block::Quote(blocks) => prefix_lines(&write(blocks), "> "),
+        Block::Code { language, code } => {
+            let fence = fence(code, 3);
+            format!("{fence}{language}\n{}\n{fence}", code.trim_end())
         }
         // After a blank line Markdown goes on inside `details`.
-        Block::Listing { id, number, caption, item, origin, text, .. } => format!(
+        Block::Listing { id, number, caption, item, origin, code, .. } => format!(
             "{}**Listing {number}.** {}\n\n<details>\n<summary><code>{item}</code></summary>\n\n\
              {fence}rust\n{}\n{fence}\n\n<sub>{}</sub>\n\n</details>",
             anchor(id),
             inlines(caption),
-            text.trim_end(),
+            code.trim_end(),
             inlines(origin),
-            fence = fence(text, 3)
+            fence = fence(code, 3)
         ),
         Block::Lab { .. } => String::new(),
         Block::Bibliography(entries) => {
             let entry = |entry: &document::Reference| {
-                format!("- {}{}", anchor(&format!("ref:{}", entry.key)), inlines(&entry.text()))
+                format!(
+                    "- {}{}",
+                    anchor(&format!("ref:{}", entry.key)),
+                    inlines(&entry.to_inlines())
+                )
             };
             entries.iter().map(entry).collect::<Vec<_>>().join("\n")
         }
@@ -106,48 +110,52 @@ fn table(table: &Table) -> String {
         Alignment::Right => "--:",
     };
     let rules: Vec<&str> = table.columns.iter().map(rule).collect();
-    let mut out = row(&table.head);
-    out.push_str(&format!("|{}|\n", rules.join("|")));
-    out.extend(table.rows.iter().map(|cells| row(cells)));
-    out
+    let mut markdown = row(&table.head);
+    markdown.push_str(&format!("|{}|\n", rules.join("|")));
+    markdown.extend(table.rows.iter().map(|cells| row(cells)));
+    markdown
 }
 
 fn anchor(id: &str) -> String {
     format!("<a id=\"{}\"></a>", place_on_page(id))
 }
 
-/// Alternative text, in one line.
+/// Writes an alternative text in one line.
 fn alternative(text: &str) -> String {
-    let (line, mut out) = (text.split_whitespace().collect::<Vec<_>>().join(" "), "[".to_string());
-    escape::words(&line, Within { link: true, cell: false }, &mut out);
+    let (line, mut escaped) =
+        (text.split_whitespace().collect::<Vec<_>>().join(" "), "[".to_string());
+    escape::push_words(&line, Within { link: true, cell: false }, &mut escaped);
     // One star alone is a star.
-    let out = if line.matches('*').count() == 1 { out.replace(r"\*", "*") } else { out };
-    out[1..].into()
+    let escaped =
+        if line.matches('*').count() == 1 { escaped.replace(r"\*", "*") } else { escaped };
+    escaped[1..].into()
 }
 
 /// Returns a text of an author as Markdown that shows just its words and formulas.
-pub fn escaped(text: &str) -> String {
-    let mut out = String::new();
+pub fn escape_text(text: &str) -> String {
+    let mut markdown = String::new();
     for piece in document::words_and_maths(text) {
         match piece {
             // A bar would end a cell.
-            Inline::Maths(tex) => out += &format!("${}$", tex.digits().replace('|', r"\vert{}")),
+            Inline::Maths(tex) => {
+                markdown += &format!("${}$", tex.to_tex().replace('|', r"\vert{}"))
+            }
             // The prose into which it goes has more signs.
             words => {
-                let written = out.len();
-                escape::words(
-                    &document::plain(&[words]),
+                let written = markdown.len();
+                escape::push_words(
+                    &document::to_plain_text(&[words]),
                     Within { link: true, cell: false },
-                    &mut out,
+                    &mut markdown,
                 );
-                for c in out.split_off(written).chars() {
-                    out.extend("{}^@".contains(c).then_some('\\'));
-                    out.push(c);
+                for c in markdown.split_off(written).chars() {
+                    markdown.extend("{}^@".contains(c).then_some('\\'));
+                    markdown.push(c);
                 }
             }
         }
     }
-    out
+    markdown
 }
 
 pub fn inlines(list: &[Inline]) -> String {
@@ -157,55 +165,55 @@ pub fn inlines(list: &[Inline]) -> String {
 fn inlines_in(list: &[Inline], within: Within) -> String {
     // Values are text and formulas, so that neighbours are seen; words that touch are one text.
     let mut flat: Vec<Inline> = Vec::new();
-    let shown = list.iter().flat_map(|inline| match inline {
-        Inline::Value { shown, .. } => document::printed(shown),
+    let expanded = list.iter().flat_map(|inline| match inline {
+        Inline::Value { printed, .. } => document::to_inlines(printed),
         other => vec![other.clone()],
     });
-    for inline in shown {
+    for inline in expanded {
         match (flat.last_mut(), &inline) {
             (Some(Inline::Text(before)), Inline::Text(words)) => before.push_str(words),
             _ => flat.push(inline),
         }
     }
-    let (mut out, mut in_formula) = (String::new(), false);
+    let (mut markdown, mut in_formula) = (String::new(), false);
     for (i, inline) in flat.iter().enumerate() {
         match inline {
             Inline::Maths(formula) => {
-                out.push_str(if in_formula { "" } else { "$" });
-                out.push_str(&maths(&formula.digits()));
+                markdown.push_str(if in_formula { "" } else { "$" });
+                markdown.push_str(&formula_to_markdown(&formula.to_tex()));
                 in_formula = true;
             }
             // Words that touch the closing dollar move inside, and so does a formula behind them.
             Inline::Text(words) if in_formula => {
-                let (glued, rest) = words.split_at(glued(words));
+                let (glued, rest) = words.split_at(glued_length(words));
                 if !glued.is_empty() {
-                    out.push_str(&format!(r"\text{{{glued}}}"));
+                    markdown.push_str(&format!(r"\text{{{glued}}}"));
                 }
                 if !rest.is_empty() {
-                    out.push('$');
-                    escape::words(rest, within, &mut out);
+                    markdown.push('$');
+                    escape::push_words(rest, within, &mut markdown);
                     in_formula = false;
                 }
             }
             other => {
-                out.push_str(if in_formula { "$" } else { "" });
-                write_inline(other, flat.get(i + 1), within, &mut out);
+                markdown.push_str(if in_formula { "$" } else { "" });
+                write_inline(other, flat.get(i + 1), within, &mut markdown);
                 in_formula = false;
             }
         }
     }
-    out + if in_formula { "$" } else { "" }
+    markdown + if in_formula { "$" } else { "" }
 }
 
 /// Writes emphasis, by a tag where stars would be read as stars: beside a letter a star needs a
 /// letter on its other side too.
-fn enclosed(inner: &str, [sign, tag]: [&str; 2], next: Option<&Inline>, out: &mut String) {
+fn enclosed(inner: &str, [sign, tag]: [&str; 2], next: Option<&Inline>, markdown: &mut String) {
     let words = inner.trim_matches(' ');
     let (Some(first), Some(last)) = (words.chars().next(), words.chars().next_back()) else {
-        return out.push_str(inner);
+        return markdown.push_str(inner);
     };
     let [blank, blank_after] = [inner.starts_with(' '), inner.ends_with(' ')];
-    out.extend(blank.then_some(' '));
+    markdown.extend(blank.then_some(' '));
     let next = match next {
         Some(Inline::Text(words)) if !blank_after => words.chars().next().unwrap_or(' '),
         Some(Inline::Emphasis(_) | Inline::Strong(_)) if !blank_after => '*',
@@ -215,25 +223,25 @@ fn enclosed(inner: &str, [sign, tag]: [&str; 2], next: Option<&Inline>, out: &mu
         let both = !inner.is_whitespace() && inner != '*' && outer != '*';
         both && (inner.is_alphanumeric() || !outer.is_alphanumeric())
     };
-    let before = out.chars().next_back().unwrap_or(' ');
+    let before = markdown.chars().next_back().unwrap_or(' ');
     if fits(first, before) && fits(last, next) {
-        out.push_str(&format!("{sign}{words}{sign}"));
+        markdown.push_str(&format!("{sign}{words}{sign}"));
     } else {
-        out.push_str(&format!("<{tag}>{words}</{tag}>"));
+        markdown.push_str(&format!("<{tag}>{words}</{tag}>"));
     }
-    out.extend(blank_after.then_some(' '));
+    markdown.extend(blank_after.then_some(' '));
 }
 
 fn write_inline(inline: &Inline, next: Option<&Inline>, within: Within, out: &mut String) {
-    let linked = |shown: &[Inline]| inlines_in(shown, Within { link: true, ..within });
+    let linked = |words: &[Inline]| inlines_in(words, Within { link: true, ..within });
     match inline {
-        Inline::Text(text) => escape::words(text, within, out),
+        Inline::Text(text) => escape::push_words(text, within, out),
         Inline::Soft => {
             // Two blanks would end the line.
             out.truncate(out.trim_end_matches(' ').len());
             out.push_str(if out.ends_with('\n') { "" } else { "\n" });
         }
-        Inline::Code(code) => escape::code(code, within, out),
+        Inline::Code(code) => escape::push_code(code, within, out),
         Inline::Emphasis(inner) => enclosed(&inlines_in(inner, within), ["*", "em"], next, out),
         Inline::Strong(inner) => enclosed(&inlines_in(inner, within), ["**", "strong"], next, out),
         Inline::Raised(inner) => out.push_str(&format!("<sup>{}</sup>", inlines_in(inner, within))),
@@ -247,13 +255,13 @@ fn write_inline(inline: &Inline, next: Option<&Inline>, within: Within, out: &mu
                 out.push_str(&format!("{}\n\n", anchor(id)));
                 tag = format!("\n\\tag{{{number}}}");
             }
-            out.push_str(&format!("$$\n{}{tag}\n$$\n\n", maths(&formula.digits())));
+            out.push_str(&format!("$$\n{}{tag}\n$$\n\n", formula_to_markdown(&formula.to_tex())));
         }
-        Inline::Link { to, shown } => escape::link(&linked(shown), to, out),
-        Inline::Reference { to, within, shown } => {
+        Inline::Link { to, words } => escape::push_link(&linked(words), to, out),
+        Inline::Reference { to, within, label } => {
             let file = within.map_or("", |document| document.markdown);
             let to = format!("{file}#{}", place_on_page(to));
-            escape::link(&linked(&[Inline::Text(shown.clone())]), &to, out);
+            escape::push_link(&linked(&[Inline::Text(label.clone())]), &to, out);
         }
         Inline::Anchor { id, number } => out.push_str(&format!("{}{number}", anchor(id))),
         Inline::Unresolved { ids, .. } => out.push_str(&ids.join("; ")),
@@ -262,7 +270,7 @@ fn write_inline(inline: &Inline, next: Option<&Inline>, within: Within, out: &mu
 }
 
 /// Returns the length of what touches the closing dollar and would stop GitHub from rendering it.
-fn glued(text: &str) -> usize {
+fn glued_length(text: &str) -> usize {
     let touches = |c: char| c.is_alphanumeric() || matches!(c, '-' | '–' | '’' | '\'' | '“' | '”');
     text.find(|c| !touches(c)).unwrap_or(text.len())
 }
@@ -275,20 +283,20 @@ static RESPELT: LazyLock<BTreeMap<&str, &str>> = LazyLock::new(|| {
     )
 });
 
-fn maths(tex: &str) -> String {
+fn formula_to_markdown(tex: &str) -> String {
     let signs: Vec<&str> = tex::signs(tex).collect();
-    let mut out = String::with_capacity(tex.len());
+    let mut markdown = String::with_capacity(tex.len());
     for (i, sign) in signs.iter().enumerate() {
         let next = signs.get(i + 1).and_then(|next| next.chars().next());
         let respelt = RESPELT.get(sign).filter(|_| (*sign, next) != (r"\\", Some('[')));
-        out.push_str(respelt.unwrap_or(sign));
+        markdown.push_str(respelt.unwrap_or(sign));
         let is_word = |c: Option<char>| c.is_some_and(char::is_alphanumeric);
         let before = i.checked_sub(1).and_then(|before| signs[before].chars().next_back());
         let splits = match respelt {
             Some(_) => next.is_some_and(|next| next.is_ascii_alphabetic()),
             None => *sign == "_" && is_word(next) && !is_word(before),
         };
-        out.extend(splits.then_some(' '));
+        markdown.extend(splits.then_some(' '));
     }
-    out
+    markdown
 }

@@ -2,7 +2,7 @@
 
 use super::document::{Formula, Part};
 use super::tex;
-use crate::print::Shown;
+use crate::print::Printed;
 use math_core::{LatexToMathML, MathDisplay};
 use std::sync::LazyLock;
 
@@ -14,56 +14,59 @@ const DEEPEST: i32 = 40;
 fn convert(tex: &str, display: MathDisplay) -> Result<String, String> {
     let (mut depth, mut macros) = (0, 0);
     for sign in tex::signs(tex).filter(|sign| !sign.trim().is_empty()) {
-        depth += braces(sign);
+        depth += brace_balance(sign);
         // Each may be the argument of the one before, as in `\hat\hat x`.
         macros = if sign.len() > 1 { macros + 1 } else { 0 };
         if depth + macros > DEEPEST {
             return Err(format!("it is nested more than {DEEPEST} deep"));
         }
     }
-    let made = CONVERTER.convert_with_local_state(tex, display);
-    made.map(|made| made.mathml).map_err(|error| error.to_string())
+    let converted = CONVERTER.convert_with_local_state(tex, display);
+    converted.map(|converted| converted.mathml).map_err(|error| error.to_string())
 }
+
+/// Stands beside a value at which a formula is cut, so that a relation there keeps its space.
+const CUT: &str = "{}";
 
 /// Writes a formula, cut at its values, which `value` writes: screen readers would not reach a
 /// button inside it. A value in a script, a root or a fraction stays in the formula as digits.
 pub fn write(
     formula: &Formula,
     display: MathDisplay,
-    value: impl Fn(&str, &Shown) -> String,
+    value: impl Fn(&str, &Printed) -> String,
 ) -> Result<String, String> {
-    let (mut out, mut tex, mut depth) = (String::new(), String::new(), 0);
+    let (mut html, mut tex, mut depth) = (String::new(), String::new(), 0);
     for part in &formula.0 {
         match part {
-            Part::Tex(text) => {
-                depth += braces(text);
-                tex.push_str(text);
+            Part::Tex(piece) => {
+                depth += brace_balance(piece);
+                tex.push_str(piece);
             }
-            Part::Value { shown, .. } if depth != 0 => tex.push_str(&shown.tex()),
-            Part::Value { id, shown } => {
-                // A relation keeps its distance, a bracket has none.
-                let close = tex.trim().is_empty() || tex.trim_end().ends_with(['(', '[']);
-                if !tex.trim().is_empty() {
-                    // The empty group keeps the space of a relation at the cut.
-                    out += &convert(&format!("{tex}{{}}"), display)?;
+            Part::Value { printed, .. } if depth != 0 => tex.push_str(&printed.to_tex()),
+            Part::Value { id, printed } => {
+                let begins = tex.trim().is_empty();
+                let touches = begins || tex.trim_end().ends_with(['(', '[']);
+                if !begins {
+                    html += &convert(&(tex + CUT), display)?;
                 }
-                out += if close { "" } else { "\u{202f}" };
-                out += &value(id, shown);
-                tex = String::from("{}");
+                html += if touches { "" } else { "\u{202f}" };
+                html += &value(id, printed);
+                tex = CUT.into();
             }
         }
     }
-    if out.is_empty() {
+    if html.is_empty() {
         return convert(&tex, display);
     }
-    if !matches!(tex.trim(), "" | "{}") {
-        out += &convert(&tex, display)?;
+    if tex.trim() != CUT {
+        html += &convert(&tex, display)?;
     }
-    Ok(format!("<span class=\"keep\">{out}</span>"))
+    Ok(format!("<span class=\"keep\">{html}</span>"))
 }
 
-/// Opening braces less closing ones, `\left` and environments among them.
-fn braces(tex: &str) -> i32 {
+/// Returns the number of opening braces less that of closing ones, `\left` and environments among
+/// them.
+fn brace_balance(tex: &str) -> i32 {
     let depth = |sign| match sign {
         "{" | r"\left" | r"\begin" => 1,
         "}" | r"\right" | r"\end" => -1,

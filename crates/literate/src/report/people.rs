@@ -2,39 +2,41 @@
 
 use biblatex::{Chunk, ChunksExt, Entry, Person};
 
-/// Reads the people of a field, none if it is empty. One without a name is refused.
-pub fn people(entry: &Entry, field: &str) -> Result<Vec<Person>, String> {
+/// Reads the people of a field, who are none if it is empty. An empty name is refused.
+pub fn parse_people(entry: &Entry, field: &str) -> Result<Vec<Person>, String> {
     let mut chunks = entry.get(field).unwrap_or_default().to_vec();
-    let mut all = "and ".to_string();
+    let mut names_and = "and ".to_string();
     for chunk in &mut chunks {
         if let Chunk::Normal(text) = &mut chunk.v {
             *text = text.replace('~', " ").replace(" AND ", " and ");
         }
         let is_normal = matches!(chunk.v, Chunk::Normal(_));
-        all +=
+        names_and +=
             &if is_normal { chunk.v.get().into() } else { chunk.v.get().replace([' ', ','], "_") };
     }
-    let words: Vec<&str> = all.split_whitespace().chain(["and"]).collect();
-    if let Some((_, found)) = all.split_once('\\') {
-        Err(format!("has \\{found} in its {field}; write it in plain letters"))
+    let words: Vec<&str> = names_and.split_whitespace().chain(["and"]).collect();
+    if let Some((_, macro_name)) = names_and.split_once('\\') {
+        Err(format!("has \\{macro_name} in its {field}; write it in plain letters"))
     } else if words.len() == 2 {
         Ok(Vec::new())
     } else if words.windows(2).any(|pair| pair == ["and"; 2]) {
-        Err(format!("has {:?} as its {field}, and so an empty name; correct it", &all[4..]))
-    } else if let Some(name) = all[4..].split(" and ").find(|name| name.matches(',').count() > 2) {
+        Err(format!("has {:?} as its {field}, and so an empty name; correct it", &names_and[4..]))
+    } else if let Some(name) =
+        names_and[4..].split(" and ").find(|name| name.matches(',').count() > 2)
+    {
         Err(format!("has {name:?} in its {field}; write `and` between names"))
     } else {
         Ok(chunks.parse().unwrap_or_default())
     }
 }
 
-/// Family name with its particle: `van der Berg`.
+/// Returns the family name with its particle: `van der Berg`.
 fn family(person: &Person) -> String {
     format!("{} {}", person.prefix, person.name).trim().to_string()
 }
 
-/// The names of a citation: "Rice", "Homer & Hogan", "Kowalczyk et al.".
-pub fn names(people: &[Person]) -> String {
+/// Returns the names of a citation: "Rice", "Homer & Hogan", "Kowalczyk et al.".
+pub fn citation_names(people: &[Person]) -> String {
     let names: Vec<String> = people.iter().map(family).collect();
     match names.as_slice() {
         [one, two] if two != "others" => format!("{one} & {two}"),
@@ -43,7 +45,7 @@ pub fn names(people: &[Person]) -> String {
     }
 }
 
-/// The initials of given names: `S. O.`, `J.-M.`.
+/// Returns the initials of given names: `S. O.`, `J.-M.`.
 fn initials(person: &Person) -> String {
     let initial = |word: &str| word.chars().next().map(|c| format!("{c}."));
     let tied = |word: &str| word.split('-').filter_map(initial).collect::<Vec<_>>().join("-");
@@ -51,8 +53,8 @@ fn initials(person: &Person) -> String {
     given.split_whitespace().map(tied).collect::<Vec<_>>().join(" ")
 }
 
-/// All authors as `Rice, S. O.` and `Knuth, D. E., III`, with a full stop at the end.
-pub fn listed(people: &[Person]) -> String {
+/// Lists all authors as `Rice, S. O.` and `Knuth, D. E., III`, with a full stop at the end.
+pub fn list_authors(people: &[Person]) -> String {
     let name = |person: &Person| {
         let mut parts = vec![family(person), initials(person), person.suffix.clone()];
         parts.retain(|part| !part.is_empty());
@@ -62,8 +64,8 @@ pub fn listed(people: &[Person]) -> String {
     list.trim_end_matches('.').to_string() + "."
 }
 
-/// Editors as `M. di Bernardo & E. Itor (Eds.), `; nothing where there are none.
-pub fn listed_editors(people: &[Person]) -> String {
+/// Lists editors as `M. di Bernardo & E. Itor (Eds.), `, or returns no words if there are none.
+pub fn list_editors(people: &[Person]) -> String {
     let name = |one: &Person| format!("{} {}", initials(one), family(one)).trim().to_string();
     match people.len() {
         0 => String::new(),

@@ -11,29 +11,29 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
 
 /// Escapes running text: special characters get a backslash, others beyond ASCII a name.
-pub fn text(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
+pub fn escape(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {
         match c {
-            '\\' => out.push_str(r"\textbackslash{}"),
-            '{' | '}' | '$' | '&' | '#' | '%' | '_' => out.extend(['\\', c]),
-            '^' => out.push_str(r"\textasciicircum{}"),
-            '~' => out.push_str(r"\textasciitilde{}"),
-            '<' => out.push_str(r"\textless{}"),
-            '>' => out.push_str(r"\textgreater{}"),
-            '|' => out.push_str(r"\textbar{}"),
-            '`' => out.push_str(r"\textasciigrave{}"),
-            '"' => out.push_str(r"\textquotedbl{}"),
+            '\\' => escaped.push_str(r"\textbackslash{}"),
+            '{' | '}' | '$' | '&' | '#' | '%' | '_' => escaped.extend(['\\', c]),
+            '^' => escaped.push_str(r"\textasciicircum{}"),
+            '~' => escaped.push_str(r"\textasciitilde{}"),
+            '<' => escaped.push_str(r"\textless{}"),
+            '>' => escaped.push_str(r"\textgreater{}"),
+            '|' => escaped.push_str(r"\textbar{}"),
+            '`' => escaped.push_str(r"\textasciigrave{}"),
+            '"' => escaped.push_str(r"\textquotedbl{}"),
             // Two of these become one sign.
-            '-' | '\'' | ',' if out.ends_with(c) => out.extend(['{', '}', c]),
+            '-' | '\'' | ',' if escaped.ends_with(c) => escaped.extend(['{', '}', c]),
             c => match (in_text(c), in_maths(c)) {
-                (Some(tex), _) => out.push_str(tex),
-                (None, Some(tex)) => out.push_str(&format!(r"\ensuremath{{{tex}}}")),
-                (None, None) => out.push(c),
+                (Some(tex), _) => escaped.push_str(tex),
+                (None, Some(tex)) => escaped.push_str(&format!(r"\ensuremath{{{tex}}}")),
+                (None, None) => escaped.push(c),
             },
         }
     }
-    out
+    escaped
 }
 
 /// Returns the characters that pdflatex does not know; T1 fonts have letters with accents.
@@ -41,28 +41,29 @@ pub fn unknown(tex: &str) -> BTreeSet<char> {
     tex.chars().filter(|c| !c.is_ascii() && !('\u{c0}'..='\u{17f}').contains(c)).collect()
 }
 
-/// Names the characters beyond ASCII in a formula, so that they may stand in `\text{…}` too.
-pub fn maths(tex: &str) -> String {
+/// Writes the characters of a formula beyond ASCII as macros, so that they may stand in `\text{…}`
+/// too.
+pub fn escape_formula(tex: &str) -> String {
     let named = |c: char| match in_text(c) {
         _ if c.is_ascii() => c.to_string(),
         Some(tex) => format!(r"\text{{{tex}}}"),
-        None => text(&c.to_string()),
+        None => escape(&c.to_string()),
     };
     tex.chars().map(named).collect()
 }
 
 /// Writes a value that leads to its card by the macro `\origin` of the template.
-pub fn value(id: &str, shown: &str) -> String {
+pub fn origin_link(id: &str, printed: &str) -> String {
     let is_safe = |c: u8| c.is_ascii_alphanumeric() || b"._:=,-".contains(&c);
     let escaped = |c| if is_safe(c) { char::from(c).into() } else { format!("\\%{c:02X}") };
     let address: String = id.bytes().map(escaped).collect();
-    format!("\\origin{{{address}}}{{{shown}}}")
+    format!("\\origin{{{address}}}{{{printed}}}")
 }
 
 /// Escapes a block of code inside `alltt`, where only `\`, `{` and `}` are special.
-pub fn code(code: &str) -> String {
+pub fn escape_code(code: &str) -> String {
     let is_plain = |c: char| c.is_ascii() && !['\\', '{', '}'].contains(&c);
-    let escaped = |c: char| if is_plain(c) { c.to_string() } else { text(&c.to_string()) };
+    let escaped = |c: char| if is_plain(c) { c.to_string() } else { escape(&c.to_string()) };
     code.chars().map(escaped).collect()
 }
 
@@ -101,7 +102,7 @@ const MATHS: &str = r"
 static TEX: LazyLock<BTreeMap<&str, &str>> = LazyLock::new(|| pairs(MATHS));
 
 /// Returns the name of a letter: `sigma` for σ.
-pub fn letter(c: char) -> Option<&'static str> {
+pub fn letter_name(c: char) -> Option<&'static str> {
     let name = in_maths(c)?.strip_prefix('\\')?;
     c.is_alphabetic().then_some(name)
 }
@@ -139,7 +140,7 @@ pub fn signs(tex: &str) -> impl Iterator<Item = &str> {
 
 /// Returns what is wrong with a formula: an environment, or its first macro, that not every format
 /// supports, or a sign that must be escaped in LaTeX. (An environment needs its &.)
-pub fn refused(tex: &str) -> Option<String> {
+pub fn unsupported(tex: &str) -> Option<String> {
     let mut environments = tex.split(r"\begin{").skip(1).filter_map(|rest| rest.split('}').next());
     if !environments.all(|name| ENVIRONMENTS.contains(&name)) {
         return Some(format!("an environment must be one of {}", ENVIRONMENTS.join(", ")));
@@ -164,18 +165,18 @@ pub fn refused(tex: &str) -> Option<String> {
 /// Spells a formula in characters: `p_{\mathrm{crit}}` as `p_crit`, `\sigma^{-3}` as `σ^-3`,
 /// `\frac{1}{2}` as `1/2`. A name that is not known stands without its backslash.
 pub fn spell(tex: &str) -> String {
-    let mut out = String::new();
+    let mut to_spelt_text = String::new();
     let mut signs = signs(tex).peekable();
     while let Some(sign) = signs.next() {
         match sign {
             r"\begin" | r"\end" => while signs.next().is_some_and(|sign| sign != "}") {},
-            "}" if signs.peek() == Some(&"{") => out.push('/'),
+            "}" if signs.peek() == Some(&"{") => to_spelt_text.push('/'),
             "{" | "}" | "&" => (),
-            "~" => out.push(' '),
-            sign => out.push_str(sign.strip_prefix('\\').map_or(sign, named)),
+            "~" => to_spelt_text.push(' '),
+            sign => to_spelt_text.push_str(sign.strip_prefix('\\').map_or(sign, spell_macro)),
         }
     }
-    out
+    to_spelt_text
 }
 
 /// Names that no character has in [`MATHS`].
@@ -183,16 +184,17 @@ static SPELT: LazyLock<BTreeMap<&str, &str>> = LazyLock::new(|| {
     pairs("epsilon ε  varphi φ  leq ≤  geq ≥  lt <  gt >  vert |  sqrt √  dots …  ldots …")
 });
 
-fn named(name: &str) -> &str {
+fn spell_macro(name: &str) -> &str {
     match name {
         "mathrm" | "mathit" | "mathbf" | "mathbb" | "mathcal" | "mathsf" | "boldsymbol"
         | "text" | "left" | "right" | "operatorname" | "frac" | "dfrac" | "tfrac" | "bar"
         | "hat" | "tilde" | "vec" | "dot" | "ddot" | "overline" | "begin" | "end" | "!" => "",
         "," | ";" | ":" | " " | "quad" | "qquad" | "thinspace" | "\\" => " ",
         other => {
-            let is = |tex: &str| tex.strip_prefix('\\') == Some(other);
-            let named = TEX.iter().find(|(_, tex)| is(tex)).map(|(character, _)| character);
-            named.or(SPELT.get(other)).unwrap_or(&other)
+            let is_named = |tex: &str| tex.strip_prefix('\\') == Some(other);
+            let character =
+                TEX.iter().find(|(_, tex)| is_named(tex)).map(|(character, _)| character);
+            character.or(SPELT.get(other)).unwrap_or(&other)
         }
     }
 }
@@ -215,13 +217,13 @@ mod tests {
     #[test]
     fn nothing_that_stops_pdflatex_is_left() {
         assert_eq!(
-            text("50 % of σ ≥ 1–2 «x_1»"),
+            escape("50 % of σ ≥ 1–2 «x_1»"),
             r"50 \% of \ensuremath{\sigma} \ensuremath{\ge} 1--2 \guillemotleft{}x\_1\guillemotright{}"
         );
-        assert_eq!(maths("σ+1 – x"), r"\ensuremath{\sigma}+1 \text{--} x");
+        assert_eq!(escape_formula("σ+1 – x"), r"\ensuremath{\sigma}+1 \text{--} x");
         let words = r"\text{größer → {é}}→";
-        assert_eq!(maths(words), r"\text{größer \ensuremath{\to} {é}}\ensuremath{\to}");
-        assert_eq!(code(r"a\{b_1}"), r"a\textbackslash{}\{b_1\}");
-        assert_eq!(text("é"), "é");
+        assert_eq!(escape_formula(words), r"\text{größer \ensuremath{\to} {é}}\ensuremath{\to}");
+        assert_eq!(escape_code(r"a\{b_1}"), r"a\textbackslash{}\{b_1\}");
+        assert_eq!(escape("é"), "é");
     }
 }

@@ -1,11 +1,12 @@
 //! Tells what people typed or calculated in the tags of a template from what was computed.
 
-use super::lint::{Declared, words};
+use super::lint::{Declared, find_numbers};
 use std::collections::BTreeSet;
 
 pub type Names = BTreeSet<String>;
 
-/// Names that `set` and loops give to what was typed or calculated: `n` in `for n in [13.5]`.
+/// Returns the names that `set` and loops give to what was typed or calculated: `n` in `for n in
+/// [13.5]`.
 pub fn names(template: &str) -> Names {
     let mut typed: Names = ["raw", "loop", "range"].map(String::from).into();
     for tag in template.split("<%").skip(1).filter_map(|tag| tag.split("%>").next()) {
@@ -27,8 +28,9 @@ pub fn names(template: &str) -> Names {
     typed
 }
 
-/// Whether an expression is more than the name of something with filters: it begins with a number,
-/// words or a typed name, calculates, or has a number in it. Names of rows may have numbers.
+/// Returns whether an expression is more than the name of something with filters: it begins with a
+/// number, words or a typed name, calculates, or has a number in it. Names of rows may have
+/// numbers.
 pub fn is_typed(expression: &str, typed: &Names) -> bool {
     let expression = expression.trim_start_matches(['-', ' ', '\n']);
     let is_name = |c: char| c.is_alphanumeric() || c == '_';
@@ -45,10 +47,11 @@ pub fn is_typed(expression: &str, typed: &Names) -> bool {
     let mut quoted = false;
     let has_numbers = bare.split(['"', '\'', '`']).any(|part| {
         quoted = !quoted;
-        let found = words(part, 0..part.len(), &Declared::default());
+        let numbers = find_numbers(part, 0..part.len(), &Declared::default());
         // `nth(n=1)` chooses.
-        let chooses = |at: usize| quoted && part[..at].ends_with(['=', '.']);
-        quoted && part.contains(['*', '/', '+', '%']) || found.iter().any(|(at, _)| !chooses(*at))
+        let chooses = |offset: usize| quoted && part[..offset].ends_with(['=', '.']);
+        quoted && part.contains(['*', '/', '+', '%'])
+            || numbers.iter().any(|(offset, _)| !chooses(*offset))
     });
     !name.starts_with(char::is_alphabetic) || typed.contains(name) || has_numbers
 }

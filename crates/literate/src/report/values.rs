@@ -19,7 +19,7 @@ pub struct Registry {
 
 impl Registry {
     pub fn add(&mut self, value: Value) -> Result<(), Error> {
-        showable(&value)?;
+        check_showable(&value)?;
         if let Some(before) = self.values.get(&value.id) {
             return Err(Error::twice(&value.id, &before.source, &value.source));
         }
@@ -32,7 +32,7 @@ impl Registry {
             if let Some(value) = self.values.get(table.name()) {
                 return Err(Error::twice(&value.id, &value.source, &table.place()));
             }
-            table.cells().try_for_each(showable)?;
+            table.cells().try_for_each(check_showable)?;
         }
         self.tables = tables.clone();
         Ok(())
@@ -42,7 +42,8 @@ impl Registry {
         self.tables.values().map(AsRef::as_ref)
     }
 
-    /// Makes the cells values that something names: those are listed, the others stand in the data.
+    /// Lists the cells with these addresses among the values; all other cells stand in the data
+    /// files alone.
     pub fn keep_cells<'a>(&mut self, named: impl IntoIterator<Item = &'a str>) {
         for address in named {
             if let Some(cell) = self.cell(address).cloned() {
@@ -51,7 +52,7 @@ impl Registry {
         }
     }
 
-    /// Shows the paths of items as documents do.
+    /// Shortens the paths of items to what documents show.
     pub fn shorten(&mut self, sources: &Sources) {
         for value in self.values.values_mut() {
             value.source = sources.short(&value.source).to_string();
@@ -59,7 +60,7 @@ impl Registry {
     }
 
     fn cell(&self, address: &str) -> Option<&Value> {
-        self.tables.get(crate::table::table_of(address)?)?.at(address)
+        self.tables.get(crate::table::table_name(address)?)?.cell(address)
     }
 
     pub fn extend(&mut self, values: impl IntoIterator<Item = Value>) -> Result<(), Error> {
@@ -83,7 +84,7 @@ impl Registry {
 }
 
 /// Refuses a number that is not finite, and words with a character that no format can show.
-fn showable(value: &Value) -> Result<(), Error> {
+fn check_showable(value: &Value) -> Result<(), Error> {
     let words = if let Number::Text(words) = &value.number { words } else { "" };
     // Characters for private use frame values in filled prose.
     let hidden = |c: &char| match c {
@@ -98,8 +99,8 @@ fn showable(value: &Value) -> Result<(), Error> {
     }
 }
 
-pub fn read(text: &str) -> Result<Registry, Error> {
-    let values = serde_json::from_str(text)
+pub fn read(json: &str) -> Result<Registry, Error> {
+    let values = serde_json::from_str(json)
         .map_err(|error| Error::Template(format!("values.json: {error}")))?;
     Ok(Registry { values, ..Registry::default() })
 }

@@ -1,6 +1,6 @@
 //! Makes a table: each call adds a column, keys first.
 
-use super::rows::{Column, Table, called};
+use super::rows::{Column, Table, key_to_text};
 use crate::sample::Sampled;
 use crate::value::{Digits, Number, Origin, Provenance, Value, origin_of};
 use std::collections::BTreeSet;
@@ -39,7 +39,8 @@ fn markdown(unit: &str) -> String {
 }
 
 impl<'a, R> Building<'a, R> {
-    /// Adds a column: the cell of a row is made of what the author's code gets of it.
+    /// Adds a column, whose cells are made by `cell` of what the author's code, `get`, returns for
+    /// each row.
     fn put<T, F: Fn(&R) -> T>(
         mut self,
         (name, unit): (&'static str, &'static str),
@@ -59,7 +60,7 @@ impl<'a, R> Building<'a, R> {
         self
     }
 
-    /// Sets the number of realisations behind the columns that follow.
+    /// Sets how many realisations the columns that follow are computed from.
     pub fn over(mut self, number: impl Fn(&R) -> usize + 'a) -> Self {
         self.number = Rc::new(number);
         self
@@ -78,10 +79,10 @@ impl<'a, R> Building<'a, R> {
         self.table.keys += 1;
     }
 
-    /// Notes what is wrong with the table, unless something was noted before.
-    fn fault(&mut self, what: String) {
-        let what = format!("{}: the table {}: {what}", self.table.place(), self.table.name);
-        self.table.fault.get_or_insert(what);
+    /// Notes what is wrong with the table; only the first fault is kept.
+    fn fault(&mut self, problem: String) {
+        let problem = format!("{}: the table {}: {problem}", self.table.place(), self.table.name);
+        self.table.fault.get_or_insert(problem);
     }
 
     /// Adds a key: a parameter by which rows are found.
@@ -100,7 +101,7 @@ impl<'a, R> Building<'a, R> {
         self.words(name, "", get)
     }
 
-    /// Adds a number from chance with its standard error; none where the sample decides nothing.
+    /// Adds an estimate with its standard error; a cell has no number where `get` returns `None`.
     pub fn estimate<E: Into<Sampled>, F: Fn(&R) -> Option<E>>(
         self,
         name: &'static str,
@@ -109,7 +110,7 @@ impl<'a, R> Building<'a, R> {
         get: F,
     ) -> Self {
         let number = self.number.clone();
-        self.put((name, unit), meaning, get, |row, found| match found.map(E::into) {
+        self.put((name, unit), meaning, get, |row, estimate| match estimate.map(E::into) {
             Some(Sampled { estimate, sample }) => {
                 let (realisations, standard_error) = (number(row) as u64, estimate.error);
                 (estimate.into(), Provenance::Ensemble { realisations, standard_error, sample })
@@ -118,7 +119,8 @@ impl<'a, R> Building<'a, R> {
         })
     }
 
-    /// Adds a number that was computed without chance, with `digits` significant ones, or none.
+    /// Adds a number that was computed without chance, with so many significant `digits`; a cell
+    /// has no number where `get` returns `None`.
     pub fn real<V: Into<Option<f64>>, F: Fn(&R) -> V>(
         self,
         name: &'static str,
@@ -143,7 +145,7 @@ impl<'a, R> Building<'a, R> {
         self.put((name, "text"), meaning, get, |_, words| (words.into(), Provenance::Exact))
     }
 
-    /// Marks all cells so far as measured: they are an input.
+    /// Marks all cells so far as measured, which makes them an input of the paper.
     pub fn measured(mut self) -> Self {
         for cell in self.table.rows.iter_mut().flat_map(|(_, cells)| cells) {
             cell.kind = Provenance::Measured;
@@ -151,7 +153,7 @@ impl<'a, R> Building<'a, R> {
         self
     }
 
-    /// Adds a parameter, with all its digits, or none.
+    /// Adds a parameter that was chosen, with all its digits; a cell may have no number.
     pub fn chosen<K: Into<Number>, F: Fn(&R) -> K>(
         self,
         name: &'static str,
@@ -176,18 +178,19 @@ impl<'a, R> Building<'a, R> {
     /// [`Results::tables`]: crate::experiments::Results::tables
     pub fn done(mut self) -> Table {
         let columns = self.table.columns.clone();
-        for (at, column) in columns.iter().enumerate() {
-            if columns[..at].iter().any(|before| before.name == column.name) {
+        for (index, column) in columns.iter().enumerate() {
+            if columns[..index].iter().any(|before| before.name == column.name) {
                 self.fault(format!("two columns have the name {}; rename one", column.name));
             }
         }
         let (name, keys) = (self.table.name, self.table.keys);
         let (mut seen, mut faults) = (BTreeSet::new(), Vec::new());
         for (row, cells) in &mut self.table.rows {
-            let named = columns.iter().zip(&*cells).take(keys);
-            let named: Vec<String> =
-                named.map(|(key, cell)| format!("{}={}", key.name, called(&cell.number))).collect();
-            *row = named.join(",");
+            let keyed = columns.iter().zip(&*cells).take(keys);
+            let keyed: Vec<String> = keyed
+                .map(|(key, cell)| format!("{}={}", key.name, key_to_text(&cell.number)))
+                .collect();
+            *row = keyed.join(",");
             if !seen.insert(row.clone()) {
                 faults.push(format!("two rows have the keys [{row}]; add a key that differs"));
             }
@@ -196,7 +199,7 @@ impl<'a, R> Building<'a, R> {
                 let address = format!("{name}{brackets}.{}", column.name);
                 if !cell.number.is_finite() {
                     let remedy = "correct it, or return None where there is no number";
-                    faults.push(format!("{address} is {}; {remedy}", cell.plain()));
+                    faults.push(format!("{address} is {}; {remedy}", cell.to_plain_text()));
                 }
                 cell.id = address;
             }

@@ -7,39 +7,39 @@ use std::borrow::Cow;
 impl DataFile {
     /// Makes the file of a table: names of columns with units, and cells with every bit of each
     /// number, and a further column for each standard error.
-    pub fn of(table: &Table) -> Self {
+    pub fn from_table(table: &Table) -> Self {
         let (mut header, mut rows) = (Vec::new(), vec![Vec::new(); table.rows.len()]);
-        for (at, Column { name, unit }) in table.columns.iter().enumerate() {
-            let mut cells = table.rows.iter().map(|(_, cells)| &cells[at]);
+        for (index, Column { name, unit }) in table.columns.iter().enumerate() {
+            let mut cells = table.rows.iter().map(|(_, cells)| &cells[index]);
             let error = cells.any(|cell| matches!(cell.kind, Provenance::Ensemble { .. }));
             header.push(format!("{name} ({unit})"));
             header.extend(error.then(|| format!("{name}_error ({unit})")));
             for (row, (_, cells)) in rows.iter_mut().zip(&table.rows) {
-                row.push(written(&cells[at].number));
-                row.extend(error.then(|| match cells[at].kind {
+                row.push(to_cell(&cells[index].number));
+                row.extend(error.then(|| match cells[index].kind {
                     Provenance::Ensemble { standard_error, .. } => format!("{standard_error:?}"),
                     _ => String::new(),
                 }));
             }
         }
-        DataFile { name: Self::name_of(table.name()), header, rows }
+        DataFile { name: Self::file_name(table.name()), header, rows }
     }
 
-    pub fn name_of(table: &str) -> String {
+    pub fn file_name(table: &str) -> String {
         format!("{}.csv", table.replace('.', "-"))
     }
 
     /// Writes the file: comma separated, one line a row, each ended by a line feed.
-    pub fn csv(&self) -> String {
-        let mut out = String::new();
+    pub fn to_csv(&self) -> String {
+        let mut csv = String::new();
         for line in std::iter::once(&self.header).chain(&self.rows) {
-            out += &(line.iter().map(|cell| quoted(cell)).collect::<Vec<_>>().join(",") + "\n");
+            csv += &(line.iter().map(|cell| quoted(cell)).collect::<Vec<_>>().join(",") + "\n");
         }
-        out
+        csv
     }
 }
 
-fn written(number: &Number) -> String {
+fn to_cell(number: &Number) -> String {
     match number {
         Number::None => String::new(),
         Number::Integer(n) => n.to_string(),
@@ -68,6 +68,6 @@ fn quoted(cell: &str) -> Cow<'_, str> {
 
 /// Formats a number for files: the shortest decimal that reads back to the same double.
 pub fn shortest(value: f64) -> String {
-    let shown = format!("{value:?}");
-    shown.strip_suffix(".0").map(String::from).unwrap_or(shown)
+    let debug = format!("{value:?}");
+    debug.strip_suffix(".0").map(String::from).unwrap_or(debug)
 }

@@ -1,7 +1,7 @@
 //! Finds tables and cells by their names.
 
 use super::missing::{Missing, NO_NUMBER, no_such};
-use super::rows::{Table, number};
+use super::rows::Table;
 use crate::value::Value;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -9,7 +9,7 @@ use std::sync::Arc;
 pub type Tables = BTreeMap<&'static str, Arc<Table>>;
 
 #[track_caller]
-pub fn table<'a>(tables: &'a Tables, name: &str) -> Result<&'a Table, Missing> {
+pub fn find_table<'a>(tables: &'a Tables, name: &str) -> Result<&'a Table, Missing> {
     match tables.get(name) {
         Some(table) => Ok(table),
         None => {
@@ -21,25 +21,26 @@ pub fn table<'a>(tables: &'a Tables, name: &str) -> Result<&'a Table, Missing> {
 }
 
 #[track_caller]
-pub fn number_at(tables: &Tables, address: &str) -> Result<f64, Missing> {
-    match number(cell(tables, address)?) {
+pub fn find_number(tables: &Tables, address: &str) -> Result<f64, Missing> {
+    match find_cell(tables, address)?.as_f64() {
         Some(number) => Ok(number),
         None => Err(Missing::new(address, NO_NUMBER)),
     }
 }
 
-/// Finds the cell with an address, `cascade.orbits[n=3].delta`.
+/// Returns the cell with an address, `cascade.orbits[n=3].delta`.
 #[track_caller]
-pub fn cell<'a>(tables: &'a Tables, address: &str) -> Result<&'a Value, Missing> {
-    let table = table(tables, table_of(address).unwrap_or(address))?;
-    match table.at(address) {
+pub fn find_cell<'a>(tables: &'a Tables, address: &str) -> Result<&'a Value, Missing> {
+    let table = find_table(tables, table_name(address).unwrap_or(address))?;
+    match table.cell(address) {
         Some(cell) => Ok(cell),
-        None => Err(Missing::new(address, table.what_is_missing(address))),
+        None => Err(Missing::new(address, table.describe_missing(address))),
     }
 }
 
-/// Returns `experiment.table` of a cell's address; none of what is no address.
-pub fn table_of(address: &str) -> Option<&str> {
+/// Returns the name of the table, `experiment.table`, in the address of a cell, or `None` if it is
+/// no address.
+pub fn table_name(address: &str) -> Option<&str> {
     match address.split_once('[') {
         Some((table, rest)) => rest.contains("].").then_some(table),
         None => {

@@ -1,6 +1,6 @@
 //! Says what is not there, where it is asked for, and what is nearest.
 
-use crate::input::place;
+use crate::input::source_line;
 use std::cmp::Reverse;
 use std::panic::Location;
 
@@ -17,7 +17,7 @@ pub struct Missing {
 impl Missing {
     #[track_caller]
     pub(super) fn new(address: impl Into<String>, what: impl Into<String>) -> Missing {
-        let (remedy, place) = ("run a fuller profile", place(Location::caller()));
+        let (remedy, place) = ("run a fuller profile", source_line(Location::caller()));
         Missing { address: address.into(), what: what.into(), remedy, place }
     }
 }
@@ -32,7 +32,7 @@ pub(crate) fn no_such<'a>(kind: &str, name: &str, names: impl Iterator<Item = &'
     format!("there is no {kind} {name}; nearest: {}", nearest.join(", "))
 }
 
-/// Returns the three names with the most characters alike at their beginnings and ends.
+/// Returns the three names that share most characters with this one at their beginnings and ends.
 pub fn nearest<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
     let alike = |other: &&str| {
         let first = name.chars().zip(other.chars()).take_while(|(a, b)| a == b).count();

@@ -2,7 +2,7 @@
 
 use super::missing::{Missing, NO_NUMBER, no_such};
 use crate::decimal::Decimal;
-use crate::input::place;
+use crate::input::source_line;
 use crate::value::{Digits, Number, Value, Written};
 use impact_numerics::statistics::Estimate;
 use std::collections::BTreeMap;
@@ -38,24 +38,25 @@ impl Table {
 
     /// Returns where the source makes it: `src/file.rs:12`.
     pub fn place(&self) -> String {
-        place(self.place)
+        source_line(self.place)
     }
 
     pub(crate) fn fault(&self) -> Option<&str> {
         self.fault.as_deref()
     }
 
-    /// Finds the cell with this address; `first` and `last` stand for values of a key.
-    pub fn at(&self, address: &str) -> Option<&Value> {
+    /// Returns the cell with this address, in which `first` and `last` may stand for values of a
+    /// key, or `None` if there is no such cell.
+    pub fn cell(&self, address: &str) -> Option<&Value> {
         if ["=first", "=last"].iter().any(|end| address.contains(end)) {
             let (row, column) = address.strip_prefix(self.name)?.rsplit_once("].")?;
-            return self.named().get(row.strip_prefix('[')?)?.get(column).copied();
+            return self.rows_by_name().get(row.strip_prefix('[')?)?.get(column).copied();
         }
         self.cells().find(|cell| cell.id == address)
     }
 
-    /// Says which part of an address is not there, with the nearest that is.
-    pub(super) fn what_is_missing(&self, address: &str) -> String {
+    /// Describes which part of an address does not exist, with the most similar names that do.
+    pub(super) fn describe_missing(&self, address: &str) -> String {
         let rest = address.strip_prefix(self.name).unwrap_or(address);
         let (row, column) = rest.rsplit_once('.').unwrap_or(("", rest));
         let row = row.trim_start_matches('[').trim_end_matches(']');
@@ -69,48 +70,51 @@ impl Table {
     #[track_caller]
     pub(super) fn column(&self, name: &str) -> Result<usize, Missing> {
         match self.names().position(|column| column == name) {
-            Some(at) => Ok(at),
+            Some(index) => Ok(index),
             None => Err(Missing::new(self.name, no_such("column", name, self.names()))),
         }
     }
 
-    /// Finds the rows with these keys, in order: all that agree where keys are left out.
+    /// Returns the rows that have these values of keys, in order; keys that are left out may have
+    /// any value.
     #[track_caller]
     fn select(&self, keys: Keys<'_>) -> Result<Vec<&[Value]>, Missing> {
-        let mut found: Vec<&[Value]> = self.rows.iter().map(|(_, cells)| &cells[..]).collect();
+        let mut rows: Vec<&[Value]> = self.rows.iter().map(|(_, cells)| &cells[..]).collect();
         for (name, wanted) in keys {
-            let at = self.column(name)?;
-            found.retain(|cells| is_number(&cells[at], *wanted));
+            let index = self.column(name)?;
+            rows.retain(|cells| is_number(&cells[index], *wanted));
         }
-        if found.is_empty() && !keys.is_empty() {
+        if rows.is_empty() && !keys.is_empty() {
             let keys: Vec<String> = keys.iter().map(|(key, x)| format!("{key}={x}")).collect();
             return Err(Missing::new(self.name, no_such("row", &keys.join(","), self.rows())));
         }
-        Ok(found)
+        Ok(rows)
     }
 
     /// Returns the number in the row with these keys.
     #[track_caller]
     pub fn number(&self, keys: Keys<'_>, column: &str) -> Result<f64, Missing> {
-        let (rows, at) = (self.select(keys)?, self.column(column)?);
+        let (rows, index) = (self.select(keys)?, self.column(column)?);
         let [row] = rows[..] else {
-            let what = format!("{} rows have these keys; give more of them", rows.len());
-            return Err(Missing::new(self.name, what));
+            let problem = format!("{} rows have these keys; give more of them", rows.len());
+            return Err(Missing::new(self.name, problem));
         };
-        match number(&row[at]) {
+        match row[index].as_f64() {
             Some(number) => Ok(number),
-            None => Err(Missing::new(&row[at].id, NO_NUMBER)),
+            None => Err(Missing::new(&row[index].id, NO_NUMBER)),
         }
     }
 
-    /// Returns the numbers of a column where there are any, each with that of another column.
+    /// Returns the points (x, y) of two columns, in the order of the rows, without rows that lack
+    /// one of the numbers.
     #[track_caller]
     pub fn curve(&self, keys: Keys<'_>, x: &str, y: &str) -> Result<Vec<(f64, f64)>, Missing> {
         let series = self.series(keys, x, y)?;
         Ok(series.into_iter().map(|(x, estimate)| (x, estimate.value)).collect())
     }
 
-    /// Returns the same with standard errors, zero where a number has none.
+    /// Returns the points of [`Table::curve`] with their standard errors, which are zero where a
+    /// number has no error.
     #[track_caller]
     pub fn series(
         &self,
@@ -119,38 +123,32 @@ impl Table {
         y: &str,
     ) -> Result<Vec<(f64, Estimate)>, Missing> {
         let (x, y) = (self.column(x)?, self.column(y)?);
-        let mut series = Vec::new();
-        for cells in self.select(keys)? {
-            if let Some((x, value)) = number(&cells[x]).zip(number(&cells[y])) {
-                let error = cells[y].standard_error();
-                let interval = [value - error, value + error];
-                series.push((x, Estimate { value, error, interval }));
-            }
-        }
-        Ok(series)
+        let rows = self.select(keys)?.into_iter();
+        Ok(rows.filter_map(|cells| cells[x].as_f64().zip(cells[y].estimate())).collect())
     }
 
-    /// Returns the different numbers of a column, in order of the rows.
+    /// Returns the numbers of a column without repetitions, in the order of the rows.
     #[track_caller]
     pub fn distinct(&self, column: &str) -> Result<Vec<f64>, Missing> {
-        let at = self.column(column)?;
-        Ok(different(self.rows.iter().filter_map(|(_, cells)| number(&cells[at]))))
+        let index = self.column(column)?;
+        Ok(without_repeats(self.rows.iter().filter_map(|(_, cells)| cells[index].as_f64())))
     }
 
-    /// Returns the different values of a key as addresses write them, in order of the rows.
-    pub fn called(&self, key: &str) -> Vec<String> {
-        let at = self.keys().position(|name| name == key);
-        let cells = self.rows.iter().filter_map(|(_, cells)| cells.get(at?));
-        different(cells.map(|cell| called(&cell.number)))
+    /// Returns the values of a key as addresses write them, without repetitions, in the order of
+    /// the rows.
+    pub fn key_values(&self, key: &str) -> Vec<String> {
+        let index = self.keys().position(|name| name == key);
+        let cells = self.rows.iter().filter_map(|(_, cells)| cells.get(index?));
+        without_repeats(cells.map(|cell| key_to_text(&cell.number)))
     }
 
     pub(crate) fn cells(&self) -> impl Iterator<Item = &Value> {
         self.rows.iter().flat_map(|(_, cells)| cells)
     }
 
-    /// Returns it with other numbers in one column, made of each number and its standard error;
-    /// none for a key, or if no cell would be another.
-    pub(crate) fn changed(
+    /// Returns the table with other numbers in one column, which `change` makes of each number and
+    /// its standard error, or `None` if the column is a key or no number changes.
+    pub(crate) fn with_column_changed(
         &self,
         column: usize,
         change: impl Fn(f64, f64) -> Option<f64>,
@@ -158,7 +156,7 @@ impl Table {
         let mut table = self.clone();
         for (_, cells) in &mut table.rows {
             let cell = &mut cells[column];
-            let Some(value) = number(cell) else { continue };
+            let Some(value) = cell.as_f64() else { continue };
             cell.number = match (change(value, cell.standard_error()), &cell.number) {
                 (None, _) => Number::None,
                 (Some(value), Number::Real { digits, .. }) => {
@@ -178,8 +176,8 @@ impl Table {
         self.columns.iter().map(|column| column.name)
     }
 
-    /// Returns it with one of these experiments as its origin: the one that it is named after, or
-    /// the only one.
+    /// Returns the table with one of these experiments as the origin of its cells: the one that it
+    /// is named after, or the only one.
     pub(crate) fn made_by(mut self, experiments: &[&str]) -> Table {
         let named = experiments.iter().any(|name| self.name.split('.').next() == Some(name));
         let only = if let [only] = experiments { only } else { "" };
@@ -196,43 +194,44 @@ impl Table {
         self.rows.iter().map(|(name, _)| name.as_str())
     }
 
-    /// Lists every way in which a template can name a row, with its cells by column: for a key its
-    /// value, or `first` and `last` of all its values. One empty name where there are no keys.
-    pub fn named(&self) -> BTreeMap<String, BTreeMap<&'static str, &Value>> {
-        let mut found = BTreeMap::new();
-        let keys: Vec<_> = self.keys().map(|key| (key, self.called(key))).collect();
+    /// Returns the rows, as cells by the names of columns, by every name that a template can give
+    /// to a row: `key=value` for each key, where `first` and `last` stand for the first and the
+    /// last value. A row without keys has the empty name.
+    pub fn rows_by_name(&self) -> BTreeMap<String, BTreeMap<&'static str, &Value>> {
+        let mut rows = BTreeMap::new();
+        let keys: Vec<_> = self.keys().map(|key| (key, self.key_values(key))).collect();
         for (_, cells) in &self.rows {
             let mut names = vec![String::new()];
-            for ((key, all), cell) in keys.iter().zip(cells) {
-                let written = called(&cell.number);
+            for ((key, values), cell) in keys.iter().zip(cells) {
+                let value = key_to_text(&cell.number);
                 let ends =
-                    [("first", all.first()), ("last", all.last()), (&written, Some(&written))];
+                    [("first", values.first()), ("last", values.last()), (&value, Some(&value))];
                 let shorter = std::mem::take(&mut names);
-                for (way, _) in ends.into_iter().filter(|(_, end)| *end == Some(&written)) {
+                for (spelling, _) in ends.into_iter().filter(|(_, end)| *end == Some(&value)) {
                     names.extend(shorter.iter().map(|name| match name.as_str() {
-                        "" => format!("{key}={way}"),
-                        name => format!("{name},{key}={way}"),
+                        "" => format!("{key}={spelling}"),
+                        name => format!("{name},{key}={spelling}"),
                     }));
                 }
             }
             let row: BTreeMap<_, _> = self.names().zip(cells).collect();
-            found.extend(names.into_iter().map(|name| (name, row.clone())));
+            rows.extend(names.into_iter().map(|name| (name, row.clone())));
         }
-        found
+        rows
     }
 }
 
-fn different<T: PartialEq>(all: impl Iterator<Item = T>) -> Vec<T> {
-    let mut found = Vec::new();
-    for one in all {
-        if !found.contains(&one) {
-            found.push(one);
+fn without_repeats<T: PartialEq>(items: impl Iterator<Item = T>) -> Vec<T> {
+    let mut distinct = Vec::new();
+    for item in items {
+        if !distinct.contains(&item) {
+            distinct.push(item);
         }
     }
-    found
+    distinct
 }
 
-pub(super) fn called(key: &Number) -> String {
+pub(super) fn key_to_text(key: &Number) -> String {
     match key {
         Number::None => "none".into(),
         Number::Integer(n) => n.to_string(),
@@ -247,25 +246,17 @@ pub(super) fn called(key: &Number) -> String {
     }
 }
 
-/// Returns whether a cell is this number, to the last digit.
+/// Returns whether a cell has exactly this number.
 fn is_number(cell: &Value, wanted: f64) -> bool {
     match cell.number {
         Number::Integer(n) => n as f64 == wanted && wanted as i128 == n,
-        _ => number(cell) == Some(wanted),
-    }
-}
-
-pub fn number(cell: &Value) -> Option<f64> {
-    match cell.number {
-        Number::Integer(n) => Some(n as f64),
-        Number::Real { value, .. } => Some(value),
-        Number::None | Number::Text(_) => None,
+        _ => cell.as_f64() == Some(wanted),
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::{DataFile, Tables, cell, table_of};
+    use super::super::{DataFile, Tables, find_cell, table_name};
     use super::*;
     use crate::sample::Sample;
     use crate::value::Provenance;
@@ -295,19 +286,19 @@ mod tests {
     #[test]
     fn a_cell_has_one_address_with_all_that_is_known_of_it() {
         let table = table();
-        let at = |address| table.at(address).unwrap();
-        let cell = at("test.rise[r=0.8,sigma=0.3].mean");
+        let cell_at = |address| table.cell(address).unwrap();
+        let cell = cell_at("test.rise[r=0.8,sigma=0.3].mean");
         let sample = Sample::Unknown;
         let kind = Provenance::Ensemble { realisations: 2, standard_error: 0.5, sample };
         assert_eq!(cell.kind, kind);
         assert_eq!(cell.source, "literate::table::rows::tests::mean");
         assert_eq!((cell.experiment.as_str(), cell.note.as_str()), ("test", "the mean"));
-        assert_eq!(table_of(&cell.id), Some("test.rise"));
+        assert_eq!(table_name(&cell.id), Some("test.rise"));
         assert_eq!(table.number(&[("r", 0.8), ("sigma", 0.3)], "mean"), Ok(7.5));
-        let source = &at("test.rise[r=0,sigma=0.1].runs").source;
+        let source = &cell_at("test.rise[r=0,sigma=0.1].runs").source;
         assert_eq!(source, "literate::table::rows::tests::table");
-        assert_eq!(at("test.rise[r=0.8,sigma=0.1].inverse").unit, r"$1/\omega$");
-        assert_eq!(at("test.rise[r=0.8,sigma=0.1].sigma").unit, r"$d \omega^2$");
+        assert_eq!(cell_at("test.rise[r=0.8,sigma=0.1].inverse").unit, r"$1/\omega$");
+        assert_eq!(cell_at("test.rise[r=0.8,sigma=0.1].sigma").unit, r"$d \omega^2$");
     }
 
     #[test]
@@ -322,14 +313,17 @@ mod tests {
     fn what_is_not_there_is_an_error_with_the_place_that_asks_and_the_nearest_names() {
         let table = table();
         let keys = [("r", 0.8), ("sigma", 0.30000000000000004)];
-        let lost = table.number(&keys, "mean").unwrap_err();
-        assert!(lost.to_string().contains("in crates/literate/src/table/rows.rs:"), "{lost}");
+        let missing_row = table.number(&keys, "mean").unwrap_err();
+        assert!(
+            missing_row.to_string().contains("in crates/literate/src/table/rows.rs:"),
+            "{missing_row}"
+        );
         let nearest = "row r=0.8,sigma=0.30000000000000004; nearest: r=0.8,sigma=0.3, r=0.8,";
-        assert!(lost.to_string().contains(nearest), "{lost}");
+        assert!(missing_row.to_string().contains(nearest), "{missing_row}");
         let tables = Tables::from([(table.name(), Arc::new(table.clone()))]);
-        let what = |address| cell(&tables, address).unwrap_err().to_string();
-        assert!(what("test.rise[r=0,sigma=0.1].meen").contains("no column meen; nearest: mean"));
-        assert!(what("test.ris.mean").contains("nearest: test.rise; add its experiment"));
+        let message = |address| find_cell(&tables, address).unwrap_err().to_string();
+        assert!(message("test.rise[r=0,sigma=0.1].meen").contains("no column meen; nearest: mean"));
+        assert!(message("test.ris.mean").contains("nearest: test.rise; add its experiment"));
         // Nothing is drawn of a column, a key or a row that is not there.
         let column = table.series(&[], "sigma", "meen").unwrap_err();
         assert!(column.to_string().contains("test.rise: there is no column meen; nearest: mean"));
@@ -340,7 +334,7 @@ mod tests {
         assert!(table.number(&[("r", 0.0), ("sigma", 0.3)], "mean").is_err());
         assert!(table.number(&[("r", 0.0), ("sigma", 0.1)], "inverse").is_err());
         for no in ["half_height", "v.half_height", "a[b]c"] {
-            assert_eq!(table_of(no), None, "{no}");
+            assert_eq!(table_name(no), None, "{no}");
         }
     }
 
@@ -353,10 +347,10 @@ mod tests {
         let late = one(&[1.0]).chosen("x", "1", "", |_| 1.0).key("s", "1", |row| *row).done();
         let nan = one(&[1.0, 0.0]).real("x", "1", 3, "", |row| 1.0 / row).done();
         let [error, negative] = [f64::NAN, -0.5].map(|error| {
-            let found = Estimate { value: 1.0, error, interval: [0.0; 2] };
-            one(&[1.0]).estimate("x", "1", "", |_| Some(found)).done()
+            let estimate = Estimate { value: 1.0, error, interval: [0.0; 2] };
+            one(&[1.0]).estimate("x", "1", "", |_| Some(estimate)).done()
         });
-        for (table, what) in [
+        for (table, problem) in [
             (twice, "two rows have the keys [r=1]"),
             (columns, "two columns have the name x"),
             (late, "the key s stands after other columns"),
@@ -366,7 +360,7 @@ mod tests {
         ] {
             let fault = table.fault.unwrap_or_default();
             let place = format!("{}:{}: the table test.bad: ", file!(), table.place.line());
-            assert!(fault.starts_with(&place) && fault.contains(what), "{fault}");
+            assert!(fault.starts_with(&place) && fault.contains(problem), "{fault}");
         }
     }
 
@@ -376,10 +370,10 @@ mod tests {
         let table = Table::of("test.seeds", &seeds, |_| 1).key("seed", "1", |seed| *seed);
         let table = table.chosen("same", "1", "", |seed| *seed).done();
         assert_eq!(table.fault, None);
-        let odd = table.at("test.seeds[seed=9007199254740993].same").unwrap();
-        assert_eq!(odd.plain(), "9007199254740993");
-        assert_eq!(DataFile::of(&table).rows[2], ["18446744073709551615"; 2]);
+        let odd = table.cell("test.seeds[seed=9007199254740993].same").unwrap();
+        assert_eq!(odd.to_plain_text(), "9007199254740993");
+        assert_eq!(DataFile::from_table(&table).rows[2], ["18446744073709551615"; 2]);
         let even = table.select(&[("seed", 9_007_199_254_740_992.0)]).unwrap();
-        assert_eq!((even.len(), called(&even[0][0].number)), (1, "9007199254740992".into()));
+        assert_eq!((even.len(), key_to_text(&even[0][0].number)), (1, "9007199254740992".into()));
     }
 }

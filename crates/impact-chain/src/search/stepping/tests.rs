@@ -109,9 +109,9 @@ fn a_dip_that_neither_end_shows_is_not_leapt_over() {
     let f0 = 0.98 * (1.0 - c).powi(3);
     let frame = Frame { f0, g0: 0.0, alpha: free[0], forced, bound, size: 20.0 };
     let (reach, mut work) = (frequencies.reach, Counters::default());
-    let found = first_root_by_steps(&frame, 0.0, reach, &frequencies, &mut work);
+    let next = first_root_by_steps(&frame, 0.0, reach, &frequencies, &mut work);
     let exact = (edge - (c + f0.cbrt()).acos()) / SIGMA;
-    assert!(matches!(found, Next::Root { s, .. } if (s - exact).abs() < 1e-12), "{found:?}");
+    assert!(matches!(next, Next::Root { s, .. } if (s - exact).abs() < 1e-12), "{next:?}");
     assert_eq!(work.evaluations, 5);
 }
 
@@ -145,7 +145,7 @@ fn a_guess_goes_before_the_root_of_the_quintic() {
     const H: f64 = 0.5;
     // (0.4 − s)(1 + s + 2 s² − 3 s³ + s⁴), by falling powers.
     let p = [-1.0, 3.4, -3.2, -0.2, -0.6, 0.4];
-    let at = |s: f64| {
+    let point_at = |s: f64| {
         let mut p = p.to_vec();
         let derivatives: Vec<f64> = (0..4)
             .map(|_| {
@@ -157,12 +157,12 @@ fn a_guess_goes_before_the_root_of_the_quintic() {
             .collect();
         point(derivatives.try_into().unwrap())
     };
-    let guess = |bound6| before_root(&at(0.0), &at(H), H, bound6).unwrap();
-    let slope = H * at(0.4).d1;
+    let guess = |bound6| before_root(&point_at(0.0), &point_at(H), H, bound6).unwrap();
+    let slope = H * point_at(0.4).d1;
     assert!((guess(0.0) - 0.4).abs() < 1e-6, "{}", guess(0.0));
     let back = H * 2.0 * (100.0 * H.powi(6) / 46080.0) / slope;
     assert!(((guess(100.0) - guess(0.0)) / back - 1.0).abs() < 1e-3, "{}", guess(100.0));
-    assert_eq!(before_root(&at(0.0), &at(H), H, 1e6), None);
+    assert_eq!(before_root(&point_at(0.0), &point_at(H), H, 1e6), None);
 }
 
 /// Roots of gaps that close steeply, near h = 1e-3 and 1e-2: the speed is right to order h⁴.

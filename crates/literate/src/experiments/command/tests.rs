@@ -33,23 +33,23 @@ fn its_tables_are_those_of_any_experiment() {
     let results = Results::run(&[command], &[], &session).unwrap();
     assert_eq!(results.number("toy.throws[needles=100].pi").unwrap(), 3.125);
     let throws = results.table("toy.throws").unwrap();
-    for (column, shown, unit, meaning) in [
+    for (column, digits, unit, meaning) in [
         ("pi", "3.12(4)", "$m$", ""),
         ("by", "sh", "", ""),
         ("seed", "7", "", ""),
         ("ratio", "0.123", "", "of areas"),
     ] {
-        let cell = throws.at(&format!("toy.throws[needles=100].{column}")).unwrap();
-        let found = (cell.plain(), cell.unit.as_str(), cell.note.as_str());
-        assert_eq!(found, (shown.into(), unit, meaning));
-        let cell = throws.at(&format!("toy.throws[needles=2].{column}")).unwrap();
-        assert_eq!(cell.plain(), "–");
+        let cell = throws.cell(&format!("toy.throws[needles=100].{column}")).unwrap();
+        let described = (cell.to_plain_text(), cell.unit.as_str(), cell.note.as_str());
+        assert_eq!(described, (digits.into(), unit, meaning));
+        let cell = throws.cell(&format!("toy.throws[needles=2].{column}")).unwrap();
+        assert_eq!(cell.to_plain_text(), "–");
     }
-    assert!(throws.at("toy.throws[needles=100].pi_error").is_none());
+    assert!(throws.cell("toy.throws[needles=100].pi_error").is_none());
     // The result depends on the bytes of the script, which need not be text.
-    assert_eq!(command.stale(&session).unwrap(), None);
+    assert_eq!(command.why_stale(&session).unwrap(), None);
     std::fs::write(&path, [SCRIPT.as_bytes(), b"# \xff"].concat()).unwrap();
-    assert!(command.stale(&session).unwrap().unwrap().contains("toy.sh changed"));
+    assert!(command.why_stale(&session).unwrap().unwrap().contains("toy.sh changed"));
     // What it wrote to standard error is kept, and a script that changes while it runs is named.
     let said = || Command::said("toy", session.profile, &session.store).unwrap();
     assert_eq!(said(), "a warning\nanother\n");
@@ -83,10 +83,11 @@ fn its_numbers_have_all_the_digits_that_were_printed() {
     let saved: Output = serde_json::from_str(&serde_json::to_string(&output).unwrap()).unwrap();
     assert_eq!(output.tables, saved.tables);
     let table = saved.tables["t"].table("toy", "t", "");
-    let shown: Vec<String> = table.cells().skip(1).step_by(2).map(|cell| cell.plain()).collect();
-    assert_eq!(shown, numbers.map(|(_, shown)| shown));
+    let digits: Vec<String> =
+        table.cells().skip(1).step_by(2).map(|cell| cell.to_plain_text()).collect();
+    assert_eq!(digits, numbers.map(|(_, digits)| digits));
     for row in ["n=0.5", "n=5", "n=123456789012345678901"] {
-        assert!(table.at(&format!("toy.t[{row}].v")).is_some(), "{row}");
+        assert!(table.cell(&format!("toy.t[{row}].v")).is_some(), "{row}");
     }
 }
 
@@ -101,8 +102,8 @@ fn it_sees_the_files_that_it_names_and_no_others() {
     let command = Command::new("toy", "sh toy.sh data/ --table=./b.csv 0.5 -x n=3");
     let command = Command { reads: &["c.csv"], ..command };
     let script = "touch out; find . -type f | sort | tr -d '\\n' > out; rm data/deep/a.bin";
-    let found = out(top, script, command);
-    assert_eq!(found, "./b.csv./c.csv./data/deep/a.bin./out./toy.sh");
+    let files = out(top, script, command);
+    assert_eq!(files, "./b.csv./c.csv./data/deep/a.bin./out./toy.sh");
     let before = command.hashes(top).unwrap();
     assert_eq!(before.len(), 5, "{before:?}");
     std::fs::write(top.join("data/deep/a.bin"), [0xfe, 0]).unwrap();
@@ -125,10 +126,10 @@ fn its_words_may_have_quotes_and_its_environment_is_small() {
     let line = r#"sh toy.sh "my data" 'a  b' c\ d"#;
     let command = Command { env, ..Command::new("toy", line) };
     let script = "printf '%s|' \"$@\" > out; ls >> out; env | cut -d = -f 1 >> out";
-    let found = out(top, script, command);
-    assert!(found.starts_with("my data|a  b|c d|my data\nout\ntoy.sh\n"), "{found}");
-    assert!(found.contains("\nPATH\n") && found.contains("\nCARGO_PKG_NAME\n"), "{found}");
-    assert!(!found.contains("CARGO_MANIFEST_DIR"), "{found}");
+    let written = out(top, script, command);
+    assert!(written.starts_with("my data|a  b|c d|my data\nout\ntoy.sh\n"), "{written}");
+    assert!(written.contains("\nPATH\n") && written.contains("\nCARGO_PKG_NAME\n"), "{written}");
+    assert!(!written.contains("CARGO_MANIFEST_DIR"), "{written}");
     let hashes = command.hashes(top).unwrap();
     assert_eq!(hashes["CARGO_PKG_NAME in the environment"], sha256(env!("CARGO_PKG_NAME")));
     assert_eq!(hashes["NO_SUCH_NAME in the environment"], "");
@@ -176,7 +177,7 @@ fn what_goes_wrong_is_shown() {
     let folder = tempfile::tempdir().unwrap();
     let table = |fields: &str| format!("echo '{{\"a\": {{\"columns\": [\"b\"], {fields}}}}}'");
     let fields = "\"columns\": [], \"rows\": []";
-    for (script, shown) in [
+    for (script, message) in [
         ("echo a >&2; echo b >&2; exit 3", "exit status: 3; it said:\na\nb"),
         ("echo Hello; echo '{}]'", "it printed:\nHello\n{}]"),
         (&table("\"rows\": [[1, 2]]"), "a: row 1 has 2 cells for 1 names"),
@@ -188,7 +189,7 @@ fn what_goes_wrong_is_shown() {
     ] {
         let command = Command { writes: &["a.png"], ..Command::new("toy", "sh toy.sh") };
         let error = run(folder.path(), script, command).unwrap_err();
-        assert!(error.contains(shown), "{error}");
+        assert!(error.contains(message), "{error}");
     }
     let error = run(folder.path(), "", Command::new("toy", "no-such-program")).unwrap_err();
     assert!(error.contains("PATH has no no-such-program; install it"), "{error}");

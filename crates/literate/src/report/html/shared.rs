@@ -8,7 +8,7 @@ use super::super::folder::Files;
 use super::super::input::Input;
 use super::super::labels::Labels;
 use super::Page;
-use crate::figures::escape as text;
+use crate::figures::escape;
 use rayon::prelude::*;
 use serde_json::{Value as Json, json};
 use std::collections::{BTreeMap, BTreeSet};
@@ -28,17 +28,17 @@ pub fn files(
     labels: &Labels,
 ) -> Result<Files, Error> {
     let page = Page::new(input);
-    let (mut rows, mut places, mut all) = (Vec::new(), BTreeMap::new(), BTreeMap::new());
-    let found: Vec<Option<Card>> = values.par_iter().map(|id| cards.get(id)).collect();
-    for (id, card) in values.iter().zip(found) {
+    let (mut rows, mut places, mut cards_by_id) = (Vec::new(), BTreeMap::new(), BTreeMap::new());
+    let made: Vec<Option<Card>> = values.par_iter().map(|id| cards.get(id)).collect();
+    for (id, card) in values.iter().zip(made) {
         let unknown = || Error::Template(format!("there is no value {id}"));
         let card = card.ok_or_else(unknown)?;
         let mut numbers = Vec::new();
         for (name, text) in &card.rows {
             let place = |inline: &Inline| match inline.clone() {
-                Inline::Reference { to, shown, .. } => {
+                Inline::Reference { to, label, .. } => {
                     let within = labels.get(&to).map(|label| label.document);
-                    vec![Inline::Reference { to, within, shown }]
+                    vec![Inline::Reference { to, within, label }]
                 }
                 other => document::relative_link(other, input.top),
             };
@@ -50,10 +50,10 @@ pub fn files(
                 rows.len() - 1
             }));
         }
-        all.insert(id, (page.inlines(&card.title), text(&card.lead), numbers));
+        cards_by_id.insert(id, (page.inlines(&card.title), escape(&card.lead), numbers));
     }
-    Error::all(page.errors.into_inner())?;
-    let json = serde_json::to_string(&(rows, all)).unwrap_or_default();
+    Error::check(page.errors.into_inner())?;
+    let json = serde_json::to_string(&(rows, cards_by_id)).unwrap_or_default();
     let mut files = Files::from([("cards.js".into(), format!("CARDS = {json};\n").into_bytes())]);
     let font = |(name, bytes): (&str, &[u8])| (format!("fonts/{name}.woff2"), bytes.to_vec());
     files.extend(FONTS.map(font));
@@ -68,8 +68,8 @@ pub fn data_index(files: &Files, edition: &Edition) -> Json {
         let table = String::from_utf8_lossy(bytes);
         let mut lines = table.lines();
         let columns = lines.next().unwrap_or_default().replace(',', ", ");
-        rows.push([text(name), lines.count().to_string(), text(&columns)]);
+        rows.push([escape(name), lines.count().to_string(), escape(&columns)]);
     }
-    let documents: Vec<_> = edition.documents.iter().map(|of| (of.page, text(of.name))).collect();
+    let documents: Vec<_> = edition.documents.iter().map(|of| (of.page, escape(of.name))).collect();
     json!({ "documents": documents, "files": rows })
 }

@@ -1,9 +1,9 @@
 //! Writes tables, which become lists or scroll sideways on a narrow screen.
 
-use super::super::document::{Inline, Table, plain, spelt};
+use super::super::document::{Inline, Table, to_plain_text, to_spelt_text};
 use super::Page;
 use crate::claims::Verdict;
-use crate::figures::escape as text;
+use crate::figures::escape;
 use pulldown_cmark::Alignment;
 use std::fmt::Write as _;
 
@@ -17,25 +17,26 @@ const FEW: usize = 3;
 
 /// Writes powers of a text with raised digits: `10^-6` as 10⁻⁶.
 fn raised(words: &str) -> String {
-    let (mut out, mut is_power) = (String::new(), false);
+    let (mut raised, mut is_power) = (String::new(), false);
     for c in words.chars() {
-        let at = "0123456789-".chars().position(|digit| digit == c);
-        match at.and_then(|at| "⁰¹²³⁴⁵⁶⁷⁸⁹⁻".chars().nth(at)).filter(|_| is_power)
+        let index = "0123456789-".chars().position(|digit| digit == c);
+        match index.and_then(|index| "⁰¹²³⁴⁵⁶⁷⁸⁹⁻".chars().nth(index)).filter(|_| is_power)
         {
-            Some(digit) => out.push(digit),
+            Some(digit) => raised.push(digit),
             None => {
                 is_power = c == '^';
-                out.extend((!is_power).then_some(c));
+                raised.extend((!is_power).then_some(c));
             }
         }
     }
-    out
+    raised
 }
 
 impl Page<'_> {
     pub(super) fn table(&self, table: &Table) -> String {
         let Table { columns, head, rows, .. } = table;
-        let longest = |i: usize| rows.iter().map(|row| plain(&row[i]).len()).max().unwrap_or(0);
+        let longest =
+            |i: usize| rows.iter().map(|row| to_plain_text(&row[i]).len()).max().unwrap_or(0);
         let longest: Vec<usize> = (0..columns.len()).map(longest).collect();
         let class = |i: usize| {
             let class = match columns[i] {
@@ -64,42 +65,46 @@ impl Page<'_> {
             (false, false) => [""; 4],
         };
         // One row of numbers below signs of verdicts is a bar, each part as wide as its number.
-        let signs: Vec<char> = head.iter().filter_map(|cell| plain(cell).chars().next()).collect();
+        let signs: Vec<char> =
+            head.iter().filter_map(|cell| to_plain_text(cell).chars().next()).collect();
         let is_sign = |sign: &char| Verdict::ALL.iter().any(|verdict| verdict.sign() == *sign);
         let is_bar = rows.len() == 1 && signs.len() == head.len() && signs.iter().all(is_sign);
         let table = if is_bar { " class=\"bar\"" } else { table };
         let class = |i: usize| match is_bar {
-            true => format!(" colspan=\"{}\" data-sign=\"{}\"", plain(&rows[0][i]), signs[i]),
+            true => {
+                format!(" colspan=\"{}\" data-sign=\"{}\"", to_plain_text(&rows[0][i]), signs[i])
+            }
             false => class(i),
         };
-        let mut out = format!("<table{table}>\n<thead><tr{line}>");
+        let mut html = format!("<table{table}>\n<thead><tr{line}>");
         for (i, cell) in head.iter().enumerate() {
             let mut words = self.inlines(cell);
             // Some screen readers find no words in mathematics.
             if matches!(cell.as_slice(), [Inline::Maths(_)]) {
-                let spelt = text(&spelt(cell));
+                let to_spelt_text = escape(&to_spelt_text(cell));
                 words = format!(
-                    "<span aria-hidden=\"true\">{words}</span><span class=\"unseen\">{spelt}</span>"
+                    "<span aria-hidden=\"true\">{words}</span><span class=\"unseen\">{to_spelt_text}</span>"
                 );
             }
             let _ = if words.trim().is_empty() {
-                write!(out, "<td{}></td>", class(i))
+                write!(html, "<td{}></td>", class(i))
             } else {
-                write!(out, "<th scope=\"col\"{column}{}>{words}</th>", class(i))
+                write!(html, "<th scope=\"col\"{column}{}>{words}</th>", class(i))
             };
         }
-        out.push_str("</tr></thead>\n<tbody>\n");
+        html.push_str("</tr></thead>\n<tbody>\n");
         for row in rows {
-            let _ = write!(out, "<tr{line}>");
+            let _ = write!(html, "<tr{line}>");
             for (i, cell) in row.iter().enumerate() {
                 let name = head.get(i).filter(|_| lists);
-                let name =
-                    name.map(|head| format!(" data-name=\"{}\"", text(&raised(&spelt(head)))));
+                let name = name.map(|head| {
+                    format!(" data-name=\"{}\"", escape(&raised(&to_spelt_text(head))))
+                });
                 let (name, words) = (name.unwrap_or_default(), self.inlines(cell));
-                let _ = write!(out, "<td{field}{}{name}>{words}</td>", class(i));
+                let _ = write!(html, "<td{field}{}{name}>{words}</td>", class(i));
             }
-            out.push_str("</tr>\n");
+            html.push_str("</tr>\n");
         }
-        out + "</tbody>\n</table>"
+        html + "</tbody>\n</table>"
     }
 }

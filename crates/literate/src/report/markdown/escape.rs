@@ -15,12 +15,12 @@ pub fn fence(code: &str, least: usize) -> String {
     "`".repeat(least.max(longest + 1))
 }
 
-/// Code within a line. In a cell a backslash before a bar is always taken away.
-pub fn code(code: &str, within: Within, out: &mut String) {
+/// Writes code within a line. In a cell a backslash before a bar is always taken away.
+pub fn push_code(code: &str, within: Within, markdown: &mut String) {
     if within.cell && code.contains(r"\|") {
-        out.push_str("<code>");
-        words(code, within, out);
-        return out.push_str("</code>");
+        markdown.push_str("<code>");
+        push_words(code, within, markdown);
+        return markdown.push_str("</code>");
     }
     if code.is_empty() {
         return;
@@ -29,23 +29,23 @@ pub fn code(code: &str, within: Within, out: &mut String) {
     let both = code.starts_with(' ') && code.ends_with(' ') && !code.trim().is_empty();
     let blank = if both || code.starts_with('`') || code.ends_with('`') { " " } else { "" };
     let code = if within.cell { code.replace('|', r"\|") } else { code.into() };
-    out.push_str(&format!("{fence}{blank}{code}{blank}{fence}"));
+    markdown.push_str(&format!("{fence}{blank}{code}{blank}{fence}"));
 }
 
-pub fn link(shown: &str, to: &str, out: &mut String) {
+pub fn push_link(words: &str, to: &str, markdown: &mut String) {
     // With it, this would be a picture.
-    if out.ends_with('!') {
-        out.insert(out.len() - 1, '\\');
+    if markdown.ends_with('!') {
+        markdown.insert(markdown.len() - 1, '\\');
     }
     let to = address(to).replace('&', if to.contains(';') { "&amp;" } else { "&" });
-    out.push_str(&format!("[{shown}]({to})"));
+    markdown.push_str(&format!("[{words}]({to})"));
 }
 
-pub fn words(text: &str, within: Within, out: &mut String) {
-    let starts_line = out.is_empty() || out.ends_with('\n');
+pub fn push_words(words: &str, within: Within, markdown: &mut String) {
+    let starts_line = markdown.is_empty() || markdown.ends_with('\n');
     // After a displayed equation the line starts anew.
-    let text = if out.ends_with('\n') { text.trim_start() } else { text };
-    let chars: Vec<char> = text.chars().collect();
+    let words = if markdown.ends_with('\n') { words.trim_start() } else { words };
+    let chars: Vec<char> = words.chars().collect();
     let marker = if starts_line { marker(&chars) } else { None };
     let is_word = |c: Option<&char>| c.is_some_and(|c| c.is_alphanumeric());
     let is_read = |i: usize| {
@@ -68,13 +68,13 @@ pub fn words(text: &str, within: Within, out: &mut String) {
         begins && !within.link && (!has_end || rest.any(is_read))
     };
     for (i, &c) in chars.iter().enumerate() {
-        out.extend((is_read(i) || ":.".contains(c) && is_address(i)).then_some('\\'));
-        out.push(c);
+        markdown.extend((is_read(i) || ":.".contains(c) && is_address(i)).then_some('\\'));
+        markdown.push(c);
     }
 }
 
-/// Where a backslash stops words at the start of a line from becoming a list, a heading, a quote,
-/// a rule, the head of a table, a box, or what defines a link.
+/// Returns where a backslash stops words at the start of a line from becoming a list, a heading, a
+/// quote, a rule, the head of a table, a box, or what defines a link.
 fn marker(chars: &[char]) -> Option<usize> {
     let blanks = chars.iter().take_while(|c| **c == ' ').count();
     let digits = chars[blanks..].iter().take_while(|c| c.is_ascii_digit()).count();

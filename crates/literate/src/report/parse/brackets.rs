@@ -2,7 +2,7 @@
 
 use super::super::document::{Formula, Part};
 use super::super::tex::{self, signs};
-use crate::print::Shown;
+use crate::print::Printed;
 
 const BLANKS: [&str; 9] = [" ", "\n", "~", r"\,", r"\:", r"\;", r"\!", r"\thinspace", r"\ "];
 /// Before a sign of a number these bind; and so do letters, numbers, and brackets that close.
@@ -19,7 +19,7 @@ pub fn bracketed(parts: Vec<Part>) -> Formula {
         None => "",
     };
     let is_bound = |(i, part): (usize, &Part)| match part {
-        Part::Value { shown, .. } => binds(tex(i.checked_sub(1)), tex(Some(i + 1)), shown),
+        Part::Value { printed, .. } => binds(tex(i.checked_sub(1)), tex(Some(i + 1)), printed),
         Part::Tex(_) => false,
     };
     let bound: Vec<bool> = parts.iter().enumerate().map(is_bound).collect();
@@ -30,8 +30,8 @@ pub fn bracketed(parts: Vec<Part>) -> Formula {
     Formula(written.collect())
 }
 
-fn binds(mut before: &str, mut after: &str, shown: &Shown) -> bool {
-    let Shown::Number(numeral) = shown else { return false };
+fn binds(mut before: &str, mut after: &str, printed: &Printed) -> bool {
+    let Printed::Number(numeral) = printed else { return false };
     // Braces alone are not seen: `{«v»}^2`.
     while let (Some(outer), Some(rest)) = (before.strip_suffix('{'), after.strip_prefix('}')) {
         let last = signs(outer).last().unwrap_or_default();
@@ -40,12 +40,12 @@ fn binds(mut before: &str, mut after: &str, shown: &Shown) -> bool {
         }
         (before, after) = (outer, rest);
     }
-    let shown = |tex| signs(tex).filter(|sign| !BLANKS.contains(sign)).collect::<Vec<_>>();
-    let (before_signs, after) = (shown(before), shown(after));
+    let visible = |tex| signs(tex).filter(|sign| !BLANKS.contains(sign)).collect::<Vec<_>>();
+    let (before_signs, after) = (visible(before), visible(after));
     let digit = |sign: &&str| sign.starts_with(|c: char| c.is_ascii_digit());
     let is_degrees = after.iter().find(|sign| !["^", "{"].contains(sign)) == Some(&r"\circ");
     let raises = after.first().is_some_and(|sign| "^_'!".contains(sign)) && !is_degrees;
-    let has_more = numeral.exponent.is_some() || numeral.error.is_some() || numeral.percent;
+    let has_more = numeral.exponent.is_some() || numeral.error.is_some() || numeral.in_percent;
     let (last, rest) = before_signs.split_last().unwrap_or((&"", &[]));
     // The digits of `x^2` and `\frac12` are no factors.
     let mut ahead = rest.iter().rev().take(2);
@@ -54,16 +54,17 @@ fn binds(mut before: &str, mut after: &str, shown: &Shown) -> bool {
     let of_text = [r"\text", r"\textrm", r"\begin", r"\end"];
     let opened = before.rsplit_once('{').map_or("", |(opened, _)| opened);
     let is_text = *last == "}" && of_text.iter().any(|of| opened.ends_with(of));
-    let spelt = tex::spell(last);
-    let is_letter = spelt.chars().all(char::is_alphabetic) && spelt.chars().count() == 1;
+    let to_spelt_text = tex::spell(last);
+    let is_letter =
+        to_spelt_text.chars().all(char::is_alphabetic) && to_spelt_text.chars().count() == 1;
     let is_in = |list: &str| list.split_whitespace().any(|sign| sign == *last);
     // The second of two bars ends what stands between them.
     let is_end = *last == "|" && before_signs.iter().filter(|sign| **sign == "|").count() % 2 == 0;
     let binds_sign =
         !is_text && (is_letter || is_in(BEFORE) || is_in(FUNCTIONS) || is_end || digit(last));
-    raises && (numeral.negative || has_more)
+    raises && (numeral.is_negative || has_more)
         || joins
-        || numeral.negative && binds_sign
+        || numeral.is_negative && binds_sign
         || (*last == "/" || is_in(FUNCTIONS))
             && numeral.exponent.is_some()
             && !numeral.is_power_alone()
@@ -85,7 +86,9 @@ x = M y | x^{M} | \frac{P}{2} | 2 \cdot P | x^2 E \pm 1 | \text{at }M^\circ | f(
         let numbers =
             [(-5_i64).into(), with_error(1.2e-5, 3e-7).into(), with_error(0.1165, 4e-4).into()];
         let part = |c: char| match "MPE".find(c) {
-            Some(at) => Part::Value { id: c.into(), shown: print(&numbers[at], Style::default()) },
+            Some(at) => {
+                Part::Value { id: c.into(), printed: print(&numbers[at], Style::default()) }
+            }
             None => Part::Tex(c.into()),
         };
         for expected in FORMULAS.trim().split(['|', '\n']).map(str::trim) {
@@ -100,7 +103,7 @@ x = M y | x^{M} | \frac{P}{2} | 2 \cdot P | x^2 E \pm 1 | \text{at }M^\circ | f(
                     (_, next) => parts.push(next),
                 }
             }
-            let written = bracketed(parts).tex(|id, _| id.into());
+            let written = bracketed(parts).to_tex_with(|id, _| id.into());
             assert_eq!(written, expected, "{bare}");
         }
     }

@@ -1,41 +1,41 @@
 //! Reads running text: words, formulas, code, references and values.
 
 use super::super::document::{Formula, Inline, Part, in_one_line};
-use super::super::error::Error;
+use super::super::error::{Error, Thing};
 use super::super::lint;
 use super::super::mark::{self, Piece, pieces};
 use super::super::tex;
 use super::brackets::bracketed;
-use super::{ALONE, ELSE, Reader, is_block, markup};
+use super::{ALONE, ELSE, Reader, fault, is_block};
 use crate::experiments::Profile;
 use crate::input::one_line;
-use crate::print::{Shown, print};
+use crate::print::{Printed, print};
 use crate::value::{Digits, Number};
 use pulldown_cmark::{Event, LinkType, Tag};
 use std::ops::Range;
 
 impl Reader<'_> {
-    /// Running text up to the end of what contains it, or the next block.
+    /// Reads running text up to the end of what contains it, or the next block.
     pub(super) fn inlines(&mut self) -> Result<Vec<Inline>, Error> {
-        let mut out = Vec::new();
+        let mut inlines = Vec::new();
         let ends = |event: &Event<'_>| {
             matches!(event, Event::End(_)) || matches!(event, Event::Start(tag) if is_block(tag))
         };
         while let Some((event, range)) = self.events.next_if(|(event, _)| !ends(event)) {
             let start = range.start;
-            let read = self.inline(event, range, &mut out);
-            read.map_err(|error| error.at(self.filled.place(start)))?;
+            let outcome = self.inline(event, range, &mut inlines);
+            outcome.map_err(|error| error.with_place(self.filled.place(start)))?;
         }
-        Ok(out)
+        Ok(inlines)
     }
 
-    /// The same where no displayed equation can stand.
-    pub(super) fn line(&mut self) -> Result<Vec<Inline>, Error> {
+    /// Reads running text where no displayed equation can stand.
+    pub(super) fn inlines_in_line(&mut self) -> Result<Vec<Inline>, Error> {
         let start = self.events.peek().map_or(0, |(_, range)| range.start);
         let inlines = self.inlines()?;
         if inlines.iter().any(|inline| matches!(inline, Inline::Display { .. })) {
-            let what = "an equation between $$ must stand in a paragraph; write $…$ here";
-            return Err(markup(what).at(self.filled.place(start)));
+            let problem = "an equation between $$ must stand in a paragraph; write $…$ here";
+            return Err(fault(problem).with_place(self.filled.place(start)));
         }
         Ok(inlines)
     }
@@ -44,22 +44,22 @@ impl Reader<'_> {
         &mut self,
         event: Event<'_>,
         range: Range<usize>,
-        out: &mut Vec<Inline>,
+        inlines: &mut Vec<Inline>,
     ) -> Result<(), Error> {
-        out.push(match event {
-            Event::Text(text) => return self.text(&text, range, out),
+        inlines.push(match event {
+            Event::Text(text) => return self.read_text(&text, range, inlines),
             Event::Code(code) => {
                 let is_digits =
                     |(_, numeral): &(usize, String)| numeral.starts_with(|c: char| c.is_numeric());
-                let found = lint::words(&self.filled.text, range, self.declared);
-                self.hard_coded(found.into_iter().filter(is_digits));
-                Inline::Code(self.plain(&code)?)
+                let numbers = lint::find_numbers(&self.filled.text, range, self.declared);
+                self.hard_coded(numbers.into_iter().filter(is_digits));
+                Inline::Code(self.to_plain_text(&code)?)
             }
-            Event::InlineMath(_) if self.hides > 0 => {
-                return Err(markup("GitHub renders no formula in emphasis or a link; move it out"));
+            Event::InlineMath(_) if self.depth_without_formulas > 0 => {
+                return Err(fault("GitHub renders no formula in emphasis or a link; move it out"));
             }
             Event::InlineMath(_) if self.filled.text[..range.start].ends_with(touches) => {
-                return Err(markup("a formula right after a word or a number needs a space"));
+                return Err(fault("a formula right after a word or a number needs a space"));
             }
             Event::InlineMath(tex) => {
                 self.check_numbers(&range);
@@ -71,15 +71,15 @@ impl Reader<'_> {
             }
             Event::SoftBreak => Inline::Soft,
             Event::Start(tag) => self.span(tag, range)?,
-            _ => return Err(markup(ELSE)),
+            _ => return Err(fault(ELSE)),
         });
         Ok(())
     }
 
-    fn hard_coded(&mut self, found: impl IntoIterator<Item = (usize, String)>) {
-        for (at, numeral) in found {
-            if self.filled.is_typed(at) {
-                self.note(at, Error::HardCoded(numeral));
+    fn hard_coded(&mut self, numbers: impl IntoIterator<Item = (usize, String)>) {
+        for (offset, numeral) in numbers {
+            if self.filled.is_typed(offset) {
+                self.note_error(offset, Error::HardCoded(numeral));
             }
         }
     }
@@ -91,37 +91,39 @@ impl Reader<'_> {
         let tex = tex.trim_end_matches('$').split(r"\tag").next().unwrap_or_default();
         let typed = |(i, c)| if self.filled.is_typed(begin + i) { c } else { 'x' };
         let tex: String = tex.char_indices().map(typed).collect();
-        let found = lint::formula(&tex);
-        self.hard_coded(found.map(|numeral| (range.start, numeral)));
+        let number = lint::number_in_formula(&tex);
+        self.hard_coded(number.map(|numeral| (range.start, numeral)));
         self.check_values(range, true);
     }
 
     /// Notes what beside a value changes its unit or sign, and digits that drop its error.
     fn check_values(&mut self, range: &Range<usize>, maths: bool) {
         let (filled, values) = (self.filled, self.values);
-        let (source, mut at) = (&filled.text, range.start);
+        let (source, mut offset) = (&filled.text, range.start);
         for piece in pieces(&source[range.clone()]) {
-            let (id, shown) = match piece {
+            let (id, filters) = match piece {
                 Piece::Text(text) => {
-                    at += text.len();
+                    offset += text.len();
                     continue;
                 }
-                Piece::Value { id, shown } => (id, shown),
+                Piece::Value { id, filters } => (id, filters),
             };
-            let (end, style) = (at + mark::framed(&id, shown).len(), mark::style(shown));
+            let (end, style) =
+                (offset + mark::framed(&id, filters).len(), mark::parse_filters(filters));
             if let Some(value) = values.get(&id) {
                 let has_error =
                     |digits: &Digits| matches!(digits, Digits::Error(_)) && style.digits.is_some();
                 let drops =
                     matches!(&value.number, Number::Real { digits, .. } if has_error(digits));
-                let what =
+                let problem =
                     format!("«{id}» has a standard error, which `significant` drops; leave it out");
-                let beside = || lint::beside(&source[..at], &source[end..], value, style, maths);
-                if let Some(what) = drops.then_some(what).or_else(beside) {
-                    self.note(at, Error::Named { thing: id, what });
+                let beside =
+                    || lint::conflict(&source[..offset], &source[end..], value, style, maths);
+                if let Some(problem) = drops.then_some(problem).or_else(beside) {
+                    self.note_error(offset, Error::Template(problem));
                 }
             }
-            at = end;
+            offset = end;
         }
     }
 
@@ -133,50 +135,55 @@ impl Reader<'_> {
             if *link_type == LinkType::ShortcutUnknown {
                 return self.reference(dest_url, range.start);
             }
-            let to = self.plain(dest_url)?;
-            return Ok(Inline::Link { to: to.clone(), shown: vec![Inline::Text(to)] });
+            let to = self.to_plain_text(dest_url)?;
+            return Ok(Inline::Link { to: to.clone(), words: vec![Inline::Text(to)] });
         }
         if matches!(&tag, Tag::Link { title, .. } if !title.is_empty()) {
-            return Err(markup("a link has no title, which print cannot show; write it in words"));
+            return Err(fault("a link has no title, which print cannot show; write it in words"));
         }
         let hides = matches!(tag, Tag::Emphasis | Tag::Link { .. });
-        self.hides += usize::from(hides);
-        let shown = self.line()?;
-        self.hides -= usize::from(hides);
+        self.depth_without_formulas += usize::from(hides);
+        let words = self.inlines_in_line()?;
+        self.depth_without_formulas -= usize::from(hides);
         self.events.next();
         Ok(match tag {
-            Tag::Emphasis => Inline::Emphasis(shown),
-            Tag::Strong => Inline::Strong(shown),
+            Tag::Emphasis => Inline::Emphasis(words),
+            Tag::Strong => Inline::Strong(words),
             Tag::Link { dest_url, .. } => {
-                let to = self.plain(&dest_url)?;
-                self.places.add(format!("({to}"), range.start);
-                Inline::Link { to, shown }
+                let to = self.to_plain_text(&dest_url)?;
+                self.places.add(Thing::Link(to.clone()), range.start);
+                Inline::Link { to, words }
             }
-            Tag::Image { .. } => return Err(markup(ALONE)),
-            _ => return Err(markup(ELSE)),
+            Tag::Image { .. } => return Err(fault(ALONE)),
+            _ => return Err(fault(ELSE)),
         })
     }
 
     /// Reads what stands between brackets: `@fig:2; @fig:3` or `!claim:rise`.
-    fn reference(&mut self, reference: &str, at: usize) -> Result<Inline, Error> {
+    fn reference(&mut self, reference: &str, offset: usize) -> Result<Inline, Error> {
         if let Some(id) = reference.strip_prefix('!') {
-            self.id("claim", id, at)?;
+            self.id("claim", id, offset)?;
             return Ok(Inline::Anchor { id: id.to_string(), number: String::new() });
         }
         let is_id = |id: &&str| !id.is_empty() && !id.contains([',', ' ', '\n', '@']);
         let id = |one: &str| Some(one.trim().strip_prefix('@').filter(is_id)?.to_string());
         let Some(ids) = reference.split(';').map(id).collect::<Option<Vec<_>>>() else {
-            let what = "ids alone stand in these brackets, with `;` between them, as in \
+            let problem = "ids alone stand in these brackets, with `;` between them, as in \
                         [@fig:2; @fig:3]; write a page or section into the sentence";
-            return Err(markup(format!("[{reference}]: {what}")));
+            return Err(fault(format!("[{reference}]: {problem}")));
         };
         for id in ids.iter().cloned().chain([ids.join("; ")]) {
-            self.places.add(format!("@{id}"), at);
+            self.places.add(Thing::Reference(id), offset);
         }
         Ok(Inline::Unresolved { ids, in_sentence: false })
     }
 
-    fn text(&mut self, text: &str, part: Range<usize>, out: &mut Vec<Inline>) -> Result<(), Error> {
+    fn read_text(
+        &mut self,
+        text: &str,
+        part: Range<usize>,
+        inlines: &mut Vec<Inline>,
+    ) -> Result<(), Error> {
         let source = &self.filled.text;
         // An id is in one piece of text, or at the end of several.
         let id_at = self.id_at.start.max(part.start)..self.id_at.end.min(part.end);
@@ -190,75 +197,78 @@ impl Reader<'_> {
         if let Some(cut) = cut {
             let [from, to] = [cut.start - part.start, cut.end - part.start];
             let [before, after] = [text.get(..from), text.get(to..)].map(Option::unwrap_or_default);
-            self.text(before, part.start..cut.start, out)?;
+            self.read_text(before, part.start..cut.start, inlines)?;
             if cut != id_at {
                 let id = source[cut.start + 1..cut.end].to_string();
-                self.places.add(format!("@{id}"), cut.start);
-                out.push(Inline::Unresolved { ids: vec![id], in_sentence: true });
+                self.places.add(Thing::Reference(id.clone()), cut.start);
+                inlines.push(Inline::Unresolved { ids: vec![id], in_sentence: true });
             }
-            return self.text(after, cut.end..part.end, out);
+            return self.read_text(after, cut.end..part.end, inlines);
         }
-        if let Some((at, what)) = leftover(source, part.start, text)
-            && at >= self.quiet
+        if let Some((offset, problem)) = leftover(source, part.start, text)
+            && offset >= self.quiet_until
         {
-            self.quiet = at + source[at..].find("\n\n").unwrap_or(source.len());
-            let what = if self.filled.is_typed(at) { what } else { GROUP };
-            return Err(markup(what).at(self.filled.place(at)));
+            self.quiet_until = offset + source[offset..].find("\n\n").unwrap_or(source.len());
+            let problem = if self.filled.is_typed(offset) { problem } else { GROUP };
+            return Err(fault(problem).with_place(self.filled.place(offset)));
         }
-        self.hard_coded(lint::words(source, part.clone(), self.declared));
+        self.hard_coded(lint::find_numbers(source, part.clone(), self.declared));
         self.check_values(&part, false);
         // A backslash before a backslash is meant.
         let escaped = usize::from(source[..part.start].ends_with('\\') && text.starts_with('\\'));
-        let text = &(text[..escaped].to_string() + &lint::literal(&text[escaped..]));
+        let text = &(text[..escaped].to_string() + &lint::without_backslashes(&text[escaped..]));
         for piece in pieces(text) {
             match piece {
                 Piece::Text(words) if words.contains(mark::is_of_mark) => {
-                    return Err(markup("a part of the name of a value was cut off; name it whole"));
+                    return Err(fault("a part of the name of a value was cut off; name it whole"));
                 }
-                Piece::Text(words) => match out.last_mut() {
+                Piece::Text(words) => match inlines.last_mut() {
                     Some(Inline::Text(before)) => before.push_str(words),
-                    _ => out.push(Inline::Text(words.to_string())),
+                    _ => inlines.push(Inline::Text(words.to_string())),
                 },
-                Piece::Value { id, shown } => {
-                    let shown = self.printed(&id, shown)?;
-                    out.push(Inline::Value { id, shown });
+                Piece::Value { id, filters } => {
+                    let printed = self.print_value(&id, filters)?;
+                    inlines.push(Inline::Value { id, printed });
                 }
             }
         }
         Ok(())
     }
 
-    fn formula(&mut self, tex: &str, at: usize) -> Result<Formula, Error> {
+    fn formula(&mut self, tex: &str, offset: usize) -> Result<Formula, Error> {
         let mut formula = Formula::default();
         for piece in pieces(tex) {
             formula.0.push(match piece {
-                Piece::Value { id, shown } => match self.printed(&id, shown)? {
-                    Shown::Words(words) => {
+                Piece::Value { id, filters } => match self.print_value(&id, filters)? {
+                    Printed::Words(words) => {
                         let words = one_line(&words, 40);
-                        let what = "are words, which a formula cannot show; move them out of it";
-                        return Err(markup(format!("«{id}»: {words:?} {what}")));
+                        let problem = "are words, which a formula cannot show; move them out of it";
+                        return Err(fault(format!("«{id}»: {words:?} {problem}")));
                     }
-                    shown => Part::Value { id, shown },
+                    printed => Part::Value { id, printed },
                 },
-                Piece::Text(text) => Part::Tex(lint::literal(text)),
+                Piece::Text(text) => Part::Tex(lint::without_backslashes(text)),
             });
         }
-        let tex = formula.digits();
+        let tex = formula.to_tex();
         if tex.contains(['«', '»', '`']) {
-            return Err(markup(LEFTOVER));
+            return Err(fault(LEFTOVER));
         }
         let is_index = |pair: &[Part]| matches!(pair, [Part::Tex(tex), Part::Value { .. }] if tex.ends_with(['^', '_']));
         let bare_index = "a value used as an index must stand in braces {…}";
         let has_index = formula.0.windows(2).any(is_index);
-        if let Some(what) = has_index.then(|| bare_index.into()).or_else(|| tex::refused(&tex)) {
-            return Err(Error::Maths { tex, what });
+        if let Some(problem) =
+            has_index.then(|| bare_index.into()).or_else(|| tex::unsupported(&tex))
+        {
+            return Err(Error::Maths { tex, problem });
         }
         let formula = bracketed(formula.0);
-        self.places.add(format!("${}", formula.digits()), at);
+        self.places.add(Thing::Formula(formula.to_tex()), offset);
         Ok(formula)
     }
 
-    /// A displayed equation: cuts `\tag{18}` out of it, or takes the id `{#eq:name}` behind it.
+    /// Reads a displayed equation: cuts `\tag{18}` out of it, or takes the id `{#eq:name}` behind
+    /// it.
     fn display(&mut self, tex: &str, range: Range<usize>) -> Result<Inline, Error> {
         let behind = &self.filled.text[range.end..];
         let id =
@@ -271,7 +281,7 @@ impl Reader<'_> {
         let (mut tex, mut number) = (tex.to_string(), String::new());
         if let Some((before, after)) = tex.split_once(r"\tag{") {
             let (tag, after) =
-                after.split_once('}').ok_or_else(|| markup(r"a \tag{ that is not closed"))?;
+                after.split_once('}').ok_or_else(|| fault(r"a \tag{ that is not closed"))?;
             let tag_id = format!("eq:{tag}");
             self.id("eq", &tag_id, range.start)?;
             (id, number, tex) = (Some(tag_id), tag.into(), format!("{}{}", before.trim(), after));
@@ -280,28 +290,31 @@ impl Reader<'_> {
         Ok(Inline::Display { formula, id, number })
     }
 
-    /// Text in which values are digits alone: code, targets of links.
-    pub(super) fn plain(&self, text: &str) -> Result<String, Error> {
-        let one = |piece| match piece {
-            Piece::Value { id, shown } => Ok(in_one_line(&self.printed(&id, shown)?.plain())),
+    /// Returns a text in which values are digits alone: code, targets of links.
+    pub(super) fn to_plain_text(&self, text: &str) -> Result<String, Error> {
+        let to_text = |piece| match piece {
+            Piece::Value { id, filters } => {
+                Ok(in_one_line(&self.print_value(&id, filters)?.to_plain_text()))
+            }
             Piece::Text(text) => Ok(text.to_string()),
         };
-        pieces(text).into_iter().map(one).collect()
+        pieces(text).into_iter().map(to_text).collect()
     }
 
-    fn printed(&self, id: &str, filters: &str) -> Result<Shown, Error> {
+    fn print_value(&self, id: &str, filters: &str) -> Result<Printed, Error> {
         let unknown = || Error::Template(format!("there is no value {id}"));
         let value = self.values.get(id).ok_or_else(unknown)?;
         // The samples of a quick profile may be too small for any number.
-        let is_dash = self.in_cell || self.values.profile() == Some(Profile::Quick);
+        let is_dash = self.is_in_cell || self.values.profile() == Some(Profile::Quick);
         if value.number == Number::None && !is_dash {
             return Err(Error::NoNumber(id.into()));
         }
-        Ok(print(&value.number, mark::style(filters)))
+        Ok(print(&value.number, mark::parse_filters(filters)))
     }
 }
 
-/// Whether a formula cannot follow: GitHub renders one only after a space or an opening bracket.
+/// Returns whether a formula cannot follow: GitHub renders one only after a space or an opening
+/// bracket.
 fn touches(c: char) -> bool {
     c.is_alphanumeric() || ")]$".contains(c) || c == mark::CLOSE
 }
@@ -346,29 +359,29 @@ fn leftover(source: &str, start: usize, text: &str) -> Option<(usize, &'static s
     let (i, _) = text.char_indices().skip(usize::from(escaped)).find(left)?;
     let rest = &source[start + i..];
     if rest.starts_with("$$") {
-        let lines = rest.match_indices('\n').map(|(at, _)| start + i + at + 1);
+        let lines = rest.match_indices('\n').map(|(offset, _)| start + i + offset + 1);
         let ends = |c: char| "+-*#>=".contains(c) || c.is_ascii_digit();
-        let mut lines = lines.take_while(|at| !source[*at..].starts_with(['\n', '$']));
-        let cut = lines.find(|at| source[*at..].starts_with(ends));
+        let mut lines = lines.take_while(|offset| !source[*offset..].starts_with(['\n', '$']));
+        let cut = lines.find(|offset| source[*offset..].starts_with(ends));
         return Some((cut.unwrap_or(start + i), CUT));
     }
-    let what = LEFT.iter().find(|(sign, _)| rest.starts_with(sign));
-    Some((start + i, what.map_or(LEFTOVER, |(_, what)| what)))
+    let problem = LEFT.iter().find(|(sign, _)| rest.starts_with(sign));
+    Some((start + i, problem.map_or(LEFTOVER, |(_, problem)| problem)))
 }
 
 /// Finds the first citation or reference without brackets, `@rice1945`, in a part of the text.
 fn mentioned(source: &str, part: Range<usize>) -> Option<Range<usize>> {
-    for (at, _) in source[part.clone()].match_indices('@') {
-        let at = part.start + at;
-        let free = source[..at].chars().next_back();
-        let rest = &source[at + 1..part.end];
+    for (offset, _) in source[part.clone()].match_indices('@') {
+        let offset = part.start + offset;
+        let free = source[..offset].chars().next_back();
+        let rest = &source[offset + 1..part.end];
         let ends = |c: char| c.is_whitespace() || ",;{}[]|".contains(c) || mark::is_of_mark(c);
         let id = rest.split(ends).next().unwrap_or_default();
         let id = id.trim_end_matches(|c: char| ".:?!()'\"’”".contains(c));
         if free.is_none_or(|c| c.is_whitespace() || "(“‘–—".contains(c))
             && id.starts_with(char::is_alphanumeric)
         {
-            return Some(at..at + 1 + id.len());
+            return Some(offset..offset + 1 + id.len());
         }
     }
     None

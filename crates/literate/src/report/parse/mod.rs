@@ -7,8 +7,8 @@
 mod brackets;
 mod inlines;
 
-use super::document::{Block, Inline, Table, plain};
-use super::error::Error;
+use super::document::{Block, Inline, Table, to_plain_text};
+use super::error::{Error, Thing};
 use super::filled::{Filled, Places};
 use super::labels::check_kind;
 use super::lint::Declared;
@@ -50,8 +50,9 @@ pub fn parse<'a>(
         depth > 40
     });
     if let Some((_, range)) = deep {
-        let error = markup("lists or emphasis are nested too deeply").at(filled.place(range.start));
-        return Parsed { blocks: Vec::new(), places: Places::of(filled), errors: vec![error] };
+        let error =
+            fault("lists or emphasis are nested too deeply").with_place(filled.place(range.start));
+        return Parsed { blocks: Vec::new(), places: Places::new(filled), errors: vec![error] };
     }
     let mut reader = Reader {
         events: events.into_iter().peekable(),
@@ -60,20 +61,20 @@ pub fn parse<'a>(
         declared,
         sources,
         id_at: 0..0,
-        quiet: 0,
-        within: 0,
-        hides: 0,
-        titled: false,
-        in_cell: false,
-        places: Places::of(filled),
-        found: Vec::new(),
+        quiet_until: 0,
+        depth: 0,
+        depth_without_formulas: 0,
+        has_title: false,
+        is_in_cell: false,
+        places: Places::new(filled),
+        errors: Vec::new(),
     };
     let blocks = reader.blocks().unwrap_or_default();
-    Parsed { blocks, places: reader.places, errors: reader.found }
+    Parsed { blocks, places: reader.places, errors: reader.errors }
 }
 
-fn markup(what: impl Into<String>) -> Error {
-    Error::Markup(what.into())
+fn fault(problem: impl Into<String>) -> Error {
+    Error::Markup(problem.into())
 }
 
 struct Reader<'a> {
@@ -85,16 +86,16 @@ struct Reader<'a> {
     /// Where an id begins and ends that is no text: behind a caption, a picture or an equation.
     id_at: Range<usize>,
     /// Where a formula ends that Markdown has cut; only its first error is reported.
-    quiet: usize,
+    quiet_until: usize,
     /// Number of lists and quotations around what is being read.
-    within: usize,
+    depth: usize,
     /// Emphasis and links around it, in which GitHub renders no formula.
-    hides: usize,
-    titled: bool,
+    depth_without_formulas: usize,
+    has_title: bool,
     /// Whether it is a cell of a table, where a dash stands for no number.
-    in_cell: bool,
+    is_in_cell: bool,
     places: Places<'a>,
-    found: Vec<Error>,
+    errors: Vec<Error>,
 }
 
 /// How a caption begins, as `Table: words {#tab:id}`, and the kind of its id.
@@ -111,30 +112,30 @@ impl<'a> Reader<'a> {
         &self.filled.text[range.clone()]
     }
 
-    fn note(&mut self, at: usize, error: Error) {
-        self.found.push(error.at(self.filled.place(at)));
+    fn note_error(&mut self, offset: usize, error: Error) {
+        self.errors.push(error.with_place(self.filled.place(offset)));
     }
 
-    fn id(&mut self, kind: &str, id: &str, at: usize) -> Result<(), Error> {
-        self.places.add(format!("#{id}"), at);
+    fn id(&mut self, kind: &str, id: &str, offset: usize) -> Result<(), Error> {
+        self.places.add(Thing::Id(id.into()), offset);
         check_kind(kind, id)
     }
 
     /// Reads blocks up to the end of what contains them. After an error reading goes on with the
     /// next block, except in lists and quotations.
     fn blocks(&mut self) -> Result<Vec<Block>, Error> {
-        let (mut blocks, within) = (Vec::new(), self.within > 0);
+        let (mut blocks, within) = (Vec::new(), self.depth > 0);
         while let Some((event, Range { start, end })) = self.events.peek().cloned() {
             if matches!(event, Event::End(_)) {
                 break;
             }
             let block = self.block().and_then(|block| may_stand(block, within));
-            match block.map_err(|error| error.at(self.filled.place(start))) {
+            match block.map_err(|error| error.with_place(self.filled.place(start))) {
                 Ok(block) => blocks.push(block),
                 Err(error) if within => return Err(error),
                 Err(error) => {
-                    self.found.push(error);
-                    (self.within, self.hides) = (0, 0);
+                    self.errors.push(error);
+                    (self.depth, self.depth_without_formulas) = (0, 0);
                     while self.events.next_if(|(_, range)| range.start < end).is_some() {}
                 }
             }
@@ -143,9 +144,9 @@ impl<'a> Reader<'a> {
     }
 
     fn inner(&mut self) -> Result<Vec<Block>, Error> {
-        self.within += 1;
+        self.depth += 1;
         let blocks = self.blocks()?;
-        self.within -= 1;
+        self.depth -= 1;
         Ok(blocks)
     }
 
@@ -168,30 +169,28 @@ impl<'a> Reader<'a> {
                 let level = level as u8;
                 let unnumbered = classes.iter().any(|class| &**class == "unnumbered");
                 if !attrs.is_empty() || classes.len() > usize::from(unnumbered) {
-                    return Err(markup("a heading may be followed by {#sec:id .unnumbered} only"));
+                    return Err(fault("a heading may be followed by {#sec:id .unnumbered} only"));
                 }
                 let id = id.map(|id| id.to_string());
                 id.iter().try_for_each(|id| self.id("sec", id, range.start))?;
-                if level > 3 || level == 1 && std::mem::replace(&mut self.titled, true) {
-                    return Err(markup(
-                        "a document has one title (#) and sections with ## and ###",
-                    ));
+                if level > 3 || level == 1 && std::mem::replace(&mut self.has_title, true) {
+                    return Err(fault("a document has one title (#) and sections with ## and ###"));
                 }
-                let text = self.line()?;
+                let text = self.inlines_in_line()?;
                 let leads = |inline: &Inline| {
                     matches!(inline, Inline::Link { .. } | Inline::Unresolved { .. })
                 };
                 if text.is_empty() || text.iter().any(leads) {
-                    return Err(markup("a heading needs words, and may have no link or reference"));
+                    return Err(fault("a heading needs words, and may have no link or reference"));
                 }
-                let bare = unnumbered || level == 1 || plain(&text) == "Abstract";
+                let bare = unnumbered || level == 1 || to_plain_text(&text) == "Abstract";
                 let number = (!bare).then(String::new);
                 Block::Heading { level, number, id, text }
             }
             Tag::BlockQuote(_) => {
                 let quote = Block::Quote(self.inner()?);
                 if deepest(std::slice::from_ref(&quote), false) > 6 {
-                    return Err(markup("quotations stand at most six deep, as in LaTeX"));
+                    return Err(fault("quotations stand at most six deep, as in LaTeX"));
                 }
                 quote
             }
@@ -203,13 +202,13 @@ impl<'a> Reader<'a> {
                 }
                 let list = Block::List { start, items };
                 if deepest(std::slice::from_ref(&list), true) > 4 {
-                    return Err(markup("lists stand at most four deep, as in LaTeX"));
+                    return Err(fault("lists stand at most four deep, as in LaTeX"));
                 }
                 list
             }
             Tag::CodeBlock(kind) => self.code(kind, &range)?,
             Tag::Table(columns) => self.table(columns)?,
-            _ => return Err(markup(ELSE)),
+            _ => return Err(fault(ELSE)),
         };
         self.events.next();
         Ok(block)
@@ -235,7 +234,9 @@ impl<'a> Reader<'a> {
                 last.truncate(last.trim_end().len());
             }
             self.events.next_if(|(event, _)| matches!(event, Event::End(TagEnd::Paragraph)));
-            let Some(Inline::Text(first)) = inlines.first_mut() else { return Err(markup(ELSE)) };
+            let Some(Inline::Text(first)) = inlines.first_mut() else {
+                return Err(fault(ELSE));
+            };
             *first = first.trim_start_matches(word).to_string();
             let mut block = self.block()?;
             match (&mut block, id) {
@@ -246,7 +247,7 @@ impl<'a> Reader<'a> {
                     (*listing_id, *caption) = (id, inlines);
                 }
                 _ => {
-                    return Err(markup(
+                    return Err(fault(
                         "a caption must be followed by its table, or have an id {#lst:…} and be followed by its code",
                     ));
                 }
@@ -272,18 +273,18 @@ impl<'a> Reader<'a> {
     /// Reads a figure, which stands alone in its paragraph, followed by its id; without one the id
     /// of `figures/NAME.svg` is `fig:NAME`. The id may give the number, as `fig:S1` does.
     fn figure(&mut self, path: &str, at: usize, id: Option<String>) -> Result<Block, Error> {
-        let caption = self.line()?;
+        let caption = self.inlines_in_line()?;
         self.events.next();
         let behind = self.inlines()?;
-        if !plain(&behind).trim().is_empty() {
-            return Err(markup(ALONE));
+        if !to_plain_text(&behind).trim().is_empty() {
+            return Err(fault(ALONE));
         }
         let file = path.rsplit('/').next().unwrap_or_default();
         let name = file.rsplit_once('.').map_or(file, |(name, _)| name).to_string();
         let files = [path.to_string(), String::new()];
         let id = id.unwrap_or_else(|| format!("fig:{name}"));
         self.id("fig", &id, at)?;
-        self.places.add(format!("!{path}"), at);
+        self.places.add(Thing::Picture(path.into()), at);
         let given = id.trim_start_matches("fig:");
         let digits = given.trim_start_matches(|c: char| c.is_ascii_uppercase());
         let number = if digits.parse::<u32>().is_ok() { given.into() } else { String::new() };
@@ -293,28 +294,31 @@ impl<'a> Reader<'a> {
 
     fn code(&mut self, kind: CodeBlockKind<'_>, range: &Range<usize>) -> Result<Block, Error> {
         let opened = self.source(range).find('\n').unwrap_or(range.len());
-        let (mut text, mut end) = (String::new(), range.start + opened);
+        let (mut code, mut end) = (String::new(), range.start + opened);
         while let Some((Event::Text(piece), piece_at)) = self.events.peek() {
-            text.push_str(piece);
+            code.push_str(piece);
             end = piece_at.end;
             self.events.next();
         }
         // Behind the code stands nothing but its fence.
         let closed = self.source(&(end..range.end)).contains(['`', '~']);
-        let CodeBlockKind::Fenced(language) = kind else { return Err(markup(FENCE)) };
+        let CodeBlockKind::Fenced(language) = kind else { return Err(fault(FENCE)) };
         match language.split_once(' ') {
-            _ if !closed => Err(markup(FENCE)),
+            _ if !closed => Err(fault(FENCE)),
             Some((_, item)) => {
-                let found = self.sources.listing(item).map_err(Error::Markup)?;
+                let listing = self.sources.listing(item).map_err(Error::Markup)?;
                 let (id, number, caption) = (String::new(), String::new(), Vec::new());
                 let file = self.sources.file(item).unwrap_or_default().to_string();
-                let (item, text) = (item.to_string(), found);
+                let (item, code) = (item.to_string(), listing);
                 let words = |words: &str| Inline::Text(words.into());
-                let link = Inline::Link { to: format!("../{file}"), shown: vec![words(&file)] };
+                let link = Inline::Link { to: format!("../{file}"), words: vec![words(&file)] };
                 let origin = vec![words("From "), link, words(".")];
-                Ok(Block::Listing { id, number, caption, item, file, origin, text })
+                Ok(Block::Listing { id, number, caption, item, file, origin, code })
             }
-            None => Ok(Block::Code { language: self.plain(&language)?, text: self.plain(&text)? }),
+            None => Ok(Block::Code {
+                language: self.to_plain_text(&language)?,
+                code: self.to_plain_text(&code)?,
+            }),
         }
     }
 
@@ -323,18 +327,18 @@ impl<'a> Reader<'a> {
         let is_row = |tag: &Tag<'_>| matches!(tag, Tag::TableHead | Tag::TableRow);
         while let Some(range) = self.begins(is_row) {
             // Markdown silently cuts and fills rows.
-            let (count, all) = (cells_of(self.source(&range)), columns.len());
-            if count != all {
-                let what = format!(
-                    "a row has {count} cells in a table of {all} columns; write a bar within a cell as \\|"
+            let (count, expected) = (cells_of(self.source(&range)), columns.len());
+            if count != expected {
+                let problem = format!(
+                    "a row has {count} cells in a table of {expected} columns; write a bar within a cell as \\|"
                 );
-                return Err(markup(what).at(self.filled.place(range.start)));
+                return Err(fault(problem).with_place(self.filled.place(range.start)));
             }
             let mut cells = Vec::new();
             while self.begins(|tag| *tag == Tag::TableCell).is_some() {
-                self.in_cell = true;
-                cells.push(self.line()?);
-                self.in_cell = false;
+                self.is_in_cell = true;
+                cells.push(self.inlines_in_line()?);
+                self.is_in_cell = false;
                 self.events.next();
             }
             self.events.next();
@@ -372,14 +376,14 @@ fn cells_of(row: &str) -> usize {
 /// Refuses a listing without a caption, and in lists and quotations what has a number.
 fn may_stand(block: Block, within: bool) -> Result<Block, Error> {
     match &block {
-        Block::Listing { id, item, .. } if id.is_empty() => Err(markup(format!(
+        Block::Listing { id, item, .. } if id.is_empty() => Err(fault(format!(
             "the listing of `{item}` needs a paragraph `Listing: caption {{#lst:id}}` right before it"
         ))),
         Block::Paragraph(_) | Block::List { .. } | Block::Quote(_) | Block::Code { .. } => {
             Ok(block)
         }
         Block::Table(Table { number: None, .. }) => Ok(block),
-        _ if within => Err(markup(
+        _ if within => Err(fault(
             "a heading, figure, listing or captioned table cannot stand in a list or quotation",
         )),
         _ => Ok(block),

@@ -46,8 +46,8 @@ fn read(xml: &str, top: &str, shows: fn(&str) -> bool) -> Vec<String> {
     for node in top.descendants() {
         let name = node.tag_name().name();
         // A document in XML has text in `text` and `code` alone.
-        let shown = node.is_text() && shows(node.parent().unwrap().tag_name().name());
-        text += node.text().filter(|_| shown).unwrap_or_default();
+        let is_visible = node.is_text() && shows(node.parent().unwrap().tag_name().name());
+        text += node.text().filter(|_| is_visible).unwrap_or_default();
         let within =
             ["text", "code", "emph", "strong", "link", "html_inline", "", "em", "a", "span", "wbr"];
         text += if within.contains(&name) { "" } else { " " };
@@ -135,7 +135,7 @@ fn words_of_data_are_data() {
     }
     let [tex, cards] = ["report.tex", "cards.js"].map(|path| file(&report, path));
     let word = words[0].replace('\n', " ");
-    assert!(tex.contains(&format!("{{{}}}\n", tex::text(&word))), "{word:?}: {tex}");
+    assert!(tex.contains(&format!("{{{}}}\n", tex::escape(&word))), "{word:?}: {tex}");
     let cards = cards.trim_start_matches("CARDS = ").trim_end_matches(";\n");
     let cards: serde_json::Value = serde_json::from_str(cards).unwrap();
     let id = format!("toy.words[n=0,name={}].word", words[0]);

@@ -42,7 +42,7 @@ fn documents_refer_to_each_other() {
         let given = given("");
         let documents = vec![FRONT, Document::REPORT, MORE];
         let edition = Edition { documents, equations: Vec::new(), ..given.edition };
-        let files = files.map(|(path, text)| (path, text.replace(from, to))).to_vec();
+        let files = files.map(|(path, markdown)| (path, markdown.replace(from, to))).to_vec();
         Given { files, edition, ..given }.made()
     };
     let error = with("", "").unwrap_err().to_string();
@@ -65,22 +65,22 @@ more.md => [Fig.·1](report.md#fig-fig03), [Sec.·2](report.md#sec-last).
 more.md => **Table S1.** T
 more.tex => \renewcommand{\thesection}{S\arabic{section}}"##;
     has(&report, parts);
-    let text = file(&report, "report.md");
-    assert!(text.find("First") < text.find("Last"));
+    let markdown = file(&report, "report.md");
+    assert!(markdown.find("First") < markdown.find("Last"));
     let error = with("# More", "# More\n\n![Again.](figures/fig03.svg)").unwrap_err().to_string();
     assert!(error.contains("fig:fig03: two things"), "{error}");
 }
 
 #[test]
 fn a_relation_is_shown_where_it_has_a_place() {
-    let shown = "<% for c in relations %>[!claim:«c.id»] «c.statement»: «c.verdict»\n<% endfor %>\n\n[@claim:closed]\n";
-    for (more, is_shown) in [(shown, true), ("", false)] {
+    let prose = "<% for c in relations %>[!claim:«c.id»] «c.statement»: «c.verdict»\n<% endfor %>\n\n[@claim:closed]\n";
+    for (more, is_shown) in [(prose, true), ("", false)] {
         let given = given(&format!("{PROSE}\n\n{more}"));
         let relation = Check { kind: Kind::Relation, ..claim("closed") };
         let claims = [given.claims.clone(), vec![relation]].concat();
         let report = Given { claims, ..given }.made().unwrap();
-        let text = file(&report, "report.md");
-        assert_eq!(text.contains("exists: reproduced"), is_shown, "{text}");
+        let markdown = file(&report, "report.md");
+        assert_eq!(markdown.contains("exists: reproduced"), is_shown, "{markdown}");
         assert_eq!(file(&report, "ledger.json").contains("\"closed\""), is_shown);
     }
 }

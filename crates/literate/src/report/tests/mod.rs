@@ -17,84 +17,7 @@ use std::sync::Arc;
 
 const BIB: &str = "@article{rice1945, author={Rice, S. O.}, title={Noise}, journal={B}, year=1945}";
 
-const SAMPLE: &str = r#"# Impact\_dynamics & large % systems: R&D $\sigma_{1/2}$
-
-## Introduction {#sec:introduction}
-
-Masses in a row ([@rice1945]; see [@fig:3], [@eq:18; @eq:25] and [@sec:protocol]). With
-«v.half_height» and $\sigma = «v.half_height»$, far below «v.tiny» or «v.least», the $n$-th mass of
-$f_{N,p}(k)$ and $\Phi'_{N,p}\,(k) < 1$ moves *fast*, **very** fast, at «literal(text="100 %", why="all")» of `a_b`.
-
-$$
-p_{\mathrm{crit}} = \left(\frac{1 + \sqrt{N+1}}{N}\right)^2 \tag{18}
-$$
-
-where $N$ is large, so
-$$
-\begin{aligned} a &= b \\ c &= d \end{aligned} \tag{25}
-$$
-
-![The rise, at «v.half_height» or $\sigma$ ≥ «literal(text="0.12", why="toy")».](figures/fig03.svg){#fig:3}
-
-Of [@eq:map],
-$$
-x \to f(x)
-$$ {#eq:map}
-follows $x^2$ («v.tiny»).
-
-### The protocol {#sec:protocol}
-
-Table: What σ gives {#tab:sigma}
-
-| Check | Statement | Ours |
-|:--|---|--:|
-| [!claim:rise] | A threshold exists near «literal(text="0.12", why="toy")» | «v.half_height» |
-| [!claim:jump] | a_b * c | «v.kept | percent» |
-
-«v.count»
-. and [@Claim:jump] of [@tab:sigma] and [@fig:3].
-
-1. first
-2. second
-
-   more
-- x
-  - y
-
-```rust
-fn f() -> σ { 1 }
-```
-
-$a$–$b$ is \` and ``a `b` c``, \~\~c\~\~, \&lt; d.
-
-\[x\]: yes
-
-````
-```
-12
-```
-````
-
-[DOI](https://doi.org/10.1/S0(98)00123-4)
-
-| a | b |
-|---|---|
-| \[q\] | c |
-
-- \[z\] a
-
-![The set-up.](figures/photo.svg)
-
-By [@lst:kick], in words.
-
-Listing: What $\delta v$ does. {#lst:kick}
-
-«code(item="toy::flight::Motion::kick")»
-
-## References {.unnumbered}
-
-[@bibliography]
-"#;
+const SAMPLE: &str = include_str!("sample.md");
 
 /// Text in one line: `⏎` ends a line in it, and `·` is a blank that does not break.
 fn unmarked(line: &str) -> String {
@@ -105,8 +28,8 @@ fn unmarked(line: &str) -> String {
 fn has(report: &Files, parts: &str) {
     for line in parts.lines().skip(1) {
         let (path, part) = line.split_once(" => ").unwrap();
-        let (text, part) = (file(report, path), unmarked(part));
-        assert!(text.contains(&part), "{part:?} is not in\n{text}");
+        let (content, part) = (file(report, path), unmarked(part));
+        assert!(content.contains(&part), "{part:?} is not in\n{content}");
     }
 }
 
@@ -118,59 +41,7 @@ fn each_format_shows_what_is_meant() {
     let picture = Figure { id: "photo".into(), ..picture.unwrap() };
     let (claims, figures) = (vec![claim("rise"), claim("jump")], vec![figure(), picture]);
     let report = Given { claims, figures, ..given(SAMPLE) }.made().unwrap();
-    let parts = r##"
-report.md => ## <a id="sec-introduction"></a>1 Introduction⏎
-report.md => ([[Rice, 1945](#ref-rice1945)]; see [Fig.·3](#fig-3), Eqs.·[(18)](#eq-18) and
-report.md => ⏎0.1165(4) and $\sigma = 0.1165(4)$, far below $-8.87\times10^{-4}$ or $10^{-9}$, the $n\text{-th}$
-report.md => $\Phi'_{N,p}\thinspace(k) \lt 1$ moves *fast*, **very** fast
-report.md => <a id="eq-18"></a>⏎⏎$$⏎p_{\mathrm{crit}} = \left(\frac{1 + \sqrt{N+1}}{N}\right)^2⏎\tag{18}⏎$$⏎
-report.md => ⏎\begin{aligned} a &= b \cr c &= d \end{aligned}⏎
-report.md => Of [Eq.·(1)](#eq-map),⏎⏎<a id="eq-map"></a>⏎⏎$$⏎x \to f(x)⏎\tag{1}⏎$$⏎⏎follows
-report.md => <a id="fig-3"></a>⏎![It rises \[steeply\].](figures/fig03.svg)⏎⏎**Figure 3.** The rise, at 0.1165(4) or
-report.md => <a id="tab-sigma"></a>**Table 1.** What σ gives⏎⏎| Check | Statement | Ours |⏎|---|---|--:|⏎
-report.md => | <a id="claim-jump"></a>2 | a_b \* c | 94.5(8)·% |⏎
-report.md => ⏎. and [Claim·2](#claim-jump) of [Table·1](#tab-sigma) and [Fig.·3](#fig-3).⏎
-report.md => 1. first⏎2. second⏎⏎   more⏎
-report.md => ```rust⏎fn f() -> σ { 1 }⏎```⏎
-report.md => ⏎By [Listing·1](#lst-kick), in words.⏎
-report.md => <a id="lst-kick"></a>**Listing 1.** What $\delta v$ does.⏎⏎<details>⏎<summary><code>toy::flight::Motion::kick</code></summary>⏎⏎```rust⏎/// 
-report.md => ⏎    self.b += kick * p.cos;⏎}⏎```⏎⏎<sub>From [src/flight.rs](../src/flight.rs).</sub>⏎⏎</details>⏎
-report.md => - <a id="ref-rice1945"></a>Rice, S. O. (1945). Noise. *B*.⏎
-report.tex => \section{Introduction}\label{sec:introduction}⏎⏎Masses
-report.tex => \origin{half_height}{0.1165(4)} and $\sigma = \origin{half_height}{0.1165(4)}$, far below
-report.tex => see \hyperref[fig:3]{Fig.~3}, Eqs.~\hyperref[eq:18]{(18)} and
-report.tex => at 100 \% of \texttt{a\_\allowbreak{}b}.⏎\begin{equation}⏎p_{
-report.tex => \tag{18}\label{eq:18}⏎\end{equation}⏎where $N$ is large, so⏎\begin{equation}⏎
-report.tex => \includegraphics[width=0.8\linewidth,height=0.62\textheight,keepaspectratio]{figures/fig03.pdf}
-report.tex => \caption{The rise, at \origin{half_height}{0.1165(4)} or $\sigma$ \ensuremath{\ge} 0.12.}\label{fig:3}
-report.tex => Of \hyperref[eq:map]{Eq.~(1)},⏎\begin{equation}⏎x \to f(x)⏎\tag{1}\label{eq:map}⏎\end{equation}⏎follows
-report.tex => \begin{longtable}{llr}⏎\caption{What \ensuremath{\sigma} gives}\label{tab:sigma}\\⏎
-report.tex => \phantomsection\label{claim:jump}2 & a\_b * c & \origin{kept}{94.5(8)~\%} \\⏎
-report.tex => \phantomsection\section*{References}
-report.tex => ⏎By \hyperref[lst:kick]{Listing~1}, in words.⏎
-report.tex => \section*{Listings}
-report.tex => \phantomsection\label{lst:kick}\textbf{Listing 1.} What $\delta v$ does. \texttt{toy::\allowbreak{}flight
-report.tex => \begin{alltt}⏎/// A jump of the velocity by \ensuremath{\omega} `kick`
-report.tex => (&mut self, kick: f64, p: &Phases<M>) \{⏎    self.a -= kick * p.sin;⏎
-report.md => $a\text{–}b$ is \` and ``a `b` c``, \~\~c\~\~, \&lt; d.
-report.md => ⏎\[x]: yes⏎
-report.md => ⏎````⏎```⏎12⏎```⏎````⏎
-report.md => (https://doi.org/10.1/S0(98)00123-4)
-report.md => ![Balls on \[rods\].](figures/photo.svg)
-report.tex => {figures/photo.pdf}
-report.tex => ⏎{}[q] & c
-report.tex => \item {}[z] a
-report.tex => \title{Impact\_dynamics \& large \% systems: R\&D $\sigma_{1/2}$}
-report.tex => pdftitle={Impact\_dynamics \& large \% systems: R\&D sigma\_1/2}
-report.html => >−8.87 × 10<sup>−4</sup></span> or <span
-report.html => >10<sup>−9</sup></span>, the
-report.html => >94.5(8)·%</span></td>
-report.html => <title>Impact_dynamics &amp; large·% systems: R&amp;D σ_1/2</title>
-report.html => <img src="figures/photo.svg" alt="Balls on [rods]."/>
-figures/photo.svg => <svg/>
-figures/photo.pdf => %PDF-1.5
-SHA256SUMS =>   figures/photo.svg⏎"##;
-    has(&report, parts);
+    has(&report, include_str!("sample.txt"));
     let [markdown, tex] = ["report.md", "report.tex"].map(|path| file(&report, path));
     assert!(!markdown.contains("\n\n\n"), "{markdown}");
     assert_eq!(tex.matches("self.b +=").count(), 1, "{tex}");
@@ -188,9 +59,9 @@ fn figure() -> Figure {
 }
 
 fn claim(id: &'static str) -> Check {
-    let found = crate::text!("{}", with_error(0.11652, 0.0004));
-    let check = Check::new(Kind::Statement, id, "A threshold | in [xx, {yy}^zz] @ exists", found);
-    let mut judged = check.judged(true).within(crate::text!("{:1}", 0.005), "half a unit");
+    let result = crate::text!("{}", with_error(0.11652, 0.0004));
+    let check = Check::new(Kind::Statement, id, "A threshold | in [xx, {yy}^zz] @ exists", result);
+    let mut judged = check.judged(true).with_tolerance(crate::text!("{:1}", 0.005), "half a unit");
     (judged.place, judged.expected) = ("Sec. 2".into(), "σ ≈ 0.12".into());
     judged
 }
@@ -219,7 +90,7 @@ impl Given {
         }
         let templates = self.files.iter().map(|(path, text)| (*path, text.as_str()));
         assemble(&Input {
-            templates: &Templates::of(templates.chain([("references.bib", BIB)])),
+            templates: &Templates::from_files(templates.chain([("references.bib", BIB)])),
             values: &values,
             rows: &Default::default(),
             claims: &self.claims,
@@ -300,14 +171,14 @@ data/index.html => <a href="fig03.csv">fig03.csv</a></td><td>"##;
 
 #[test]
 fn numerals_that_were_typed_outside_the_prose_are_refused() {
-    for (text, fault) in [
+    for (note, fault) in [
         ("so at 12 s", "src/flight.rs:12: \"so at 12 s\": hard-coded number 12;"),
         ("7 of 0.35 m", "src/flight.rs:13: \"7 of 0.35 m\": hard-coded number 0.35;"),
         ("Eq. (25) at 98.98 s of Python 3.11", "src/flight.rs:14: \"Eq. (25) at 98.98 s of"),
         ("within ten of it", "src/flight.rs:14: \"within ten of it\": hard-coded number ten;"),
         ("Eq. (25) at 12, at 120 s, of Python 3.11, 14 s, 0.35", ""),
     ] {
-        let claims = vec![claim("rise").note(text).within("", text)];
+        let claims = vec![claim("rise").note(note).with_tolerance("", note)];
         let made = Given { claims, ..given(PROSE) }.made();
         let error = made.err().map(|error| error.to_string()).unwrap_or_default();
         assert!(error.starts_with(fault) && error.is_empty() == fault.is_empty(), "{error}");
