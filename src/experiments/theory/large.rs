@@ -17,7 +17,7 @@ fn drawn() -> Vec<f64> {
 pub(super) fn large() -> Table {
     let jump = |vertices| (vertices as f64, known(p_jump(Simple, vertices)));
     let jumps: Vec<(f64, Jump)> = LARGE_VERTICES.into_par_iter().map(jump).collect();
-    Table::of("theory.large", &jumps, |_| 0)
+    Table::builder("theory.large", &jumps, |_| 0)
         .computed_by(origin(p_jump))
         .key("n", "1", |(n, _)| *n)
         .real("vertices", "1", 1, "N", |(n, _)| *n)
