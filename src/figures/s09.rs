@@ -19,8 +19,8 @@ const MISSED: [Place; 5] = [
     (Advancement, 0, (2, 0)),
     (RungeKutta, FINEST, (1, -2)),
     (MoreauJean, 2, (2, 0)),
-    (Verlet, 2, (-2, 0)),
-    (Penalty, 2, (1, 3)),
+    (Verlet, 0, (0, 2)),
+    (Penalty, FINEST, (-1, -2)),
 ];
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
