@@ -18,7 +18,7 @@ const TASKS = {
   "find the original": [["Edition", "Homer & Hogan, 2007"], /Homer, M\., & Hogan, S\. J\. \(2007\)\. Impact dynamics/],
   "cite this edition": [["How to cite", "Copy"], /(Copied|Selected)\n@misc\{[a-z0-9]+,/],
   "have the data of a figure": [["data of the figures", "fig12.csv"], /^series \(text\),/],
-  "choose a method": [["Methods"], /a mean to 1 %[^]{0,40}\s+Verlet/],
+  "choose a method": [["Methods"], /a mean over many chains Verlet/],
   "run the chain at σ = 0.1": [[{ type: "0.1", into: "force σ, typed" }, "Fig. 3 at σ = 0.1, realisation 3"], /^[1-9]\d* of 101 gaps have impacts[^]*✓ same bits/m],
   "learn what becomes of grazing": [[{ type: "grazing" }, "Enter"], /graz/],
 };
