@@ -75,9 +75,22 @@ class Crate(unittest.TestCase):
         program = self.entities[run["instrument"][0]["@id"]]
         compiler = self.entities[program["softwareRequirements"][0]["@id"]]
         self.assertEqual(compiler["version"], toml("rust-toolchain.toml")["toolchain"]["channel"])
+        for software in (program, compiler):
+            for key in ("name", "url", "version"):
+                self.assertTrue(software[key], key)
+        described = [run["actionStatus"], self.entities["./"]["publisher"]]
+        described += [e["conformsTo"] for e in self.entities.values() if e["@type"] == "File" and "conformsTo" in e]
+        self.assertEqual(set(ids(described)) - self.entities.keys(), set())
 
 
 class Files(unittest.TestCase):
+    def test_one_title(self):
+        title = text("templates/edition/00-abstract.md").splitlines()[0].removeprefix("# ")
+        crate = {entity["@id"]: entity for entity in json.loads(text("ro-crate-metadata.json"))["@graph"]}
+        self.assertEqual(crate["./"]["name"], title)
+        for path in ("CITATION.cff", "codecheck.yml"):
+            self.assertIn(f'\n  title: "{title}"\n', text(path))
+
     def test_one_version_and_one_day(self):
         workspace = toml("Cargo.toml")["workspace"]["package"]
         citation, meta = text("CITATION.cff"), json.loads(text("codemeta.json"))
