@@ -88,8 +88,8 @@ class Files(unittest.TestCase):
         title = text("templates/edition/00-abstract.md").splitlines()[0].removeprefix("# ")
         crate = {entity["@id"]: entity for entity in json.loads(text("ro-crate-metadata.json"))["@graph"]}
         self.assertEqual(crate["./"]["name"], title)
-        for path in ("CITATION.cff", "codecheck.yml"):
-            self.assertIn(f'\n  title: "{title}"\n', text(path))
+        for path, times in [("CITATION.cff", 2), ("codecheck.yml", 1)]:
+            self.assertEqual(text(path).count(f'title: "{title}"\n'), times, path)
 
     def test_one_version_and_one_day(self):
         workspace = toml("Cargo.toml")["workspace"]["package"]
@@ -153,8 +153,8 @@ class Files(unittest.TestCase):
         for command in ("make paper", "make test"):
             self.assertIn(command, text("README.md"))
 
-    def test_the_four_ways_in(self):
-        block = re.search(r"## Four ways in\n\n```sh\n(.*?)```", text("README.md"), re.S)[1]
+    def test_the_five_ways_in(self):
+        block = re.search(r"## Five ways in\n\n```sh\n(.*?)```", text("README.md"), re.S)[1]
         commands = [line.split("#")[0].strip() for line in block.splitlines()]
         self.assertEqual(len(commands), 5)
         for command in commands:
