@@ -51,7 +51,7 @@ pub fn tables(horizon: &Horizon) -> Vec<Table> {
     let orders = horizon.twins.iter().filter_map(|pair| pair.order);
     let (times, before): (Vec<f64>, Vec<f64>) = orders.map(|(t, n)| (t, n as f64)).unzip();
     let least = times.iter().copied().fold(f64::INFINITY, f64::min);
-    let table = Table::of("horizon.twins", &[horizon], |horizon| horizon.twins.len())
+    let table = Table::builder("horizon.twins", &[horizon], |horizon| horizon.twins.len())
         .computed_by(origin(run))
         .count("pairs", "pairs of twins", |horizon| horizon.twins.len() as u64)
         .chosen("sigma", SIGMA, "", |horizon| Some(horizon.parameters.sigma))

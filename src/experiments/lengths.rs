@@ -20,7 +20,7 @@ pub fn tables(counted: &Vec<Counted>) -> Vec<Table> {
 fn rest(counted: &[Counted]) -> Table {
     let rows: Vec<_> = from_rest(counted).collect();
     const WIDTH: &str = "from a quarter to three quarters of all gaps";
-    Table::of("lengths.rest", &rows, |row| row.0.ensemble.realisations)
+    Table::builder("lengths.rest", &rows, |row| row.0.ensemble.realisations)
         .key("masses", "1", |row| row.0.ensemble.chain.masses as f64)
         .key("transient", TIME, |row| row.1.protocol.transient)
         .key("window", TIME, |row| row.1.protocol.window)
@@ -33,7 +33,7 @@ fn rest(counted: &[Counted]) -> Table {
 fn random(counted: &[Counted]) -> Table {
     let random = find_ensemble(counted, "random");
     let curves = random.map_or(&[][..], |one| &one.curves);
-    Table::of("lengths.random", curves, |_| random.map_or(0, |one| one.ensemble.realisations))
+    Table::builder("lengths.random", curves, |_| random.map_or(0, |one| one.ensemble.realisations))
         .key("transient", TIME, |curve| curve.protocol.transient)
         .computed_by(origin(Curve::new))
         .estimate("half_height", SIGMA, HALF_HEIGHT, |curve| curve.rise.half_height_all)
@@ -45,7 +45,7 @@ fn all(counted: &[Counted]) -> Table {
     let longest = counted.iter().map(|one| &one.ensemble).max_by_key(|one| one.chain.masses);
     let stretch = longest.map(|one| (one.chain.masses / one.pieces) as f64);
     let longest = longest.map(|one| one.chain.masses as f64);
-    Table::of("lengths.all", &[()], |()| 0)
+    Table::builder("lengths.all", &[()], |()| 0)
         .chosen("longest", "1", "masses of the longest chains", |()| longest)
         .chosen("stretch", "1", STRETCH, |()| stretch)
         .done()

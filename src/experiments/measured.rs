@@ -199,7 +199,7 @@ pub fn tables(measured: &Measured) -> Vec<Table> {
     };
     let sessions: Vec<(&str, &MeasuredOn)> =
         parts.into_iter().filter_map(|(part, subject)| Some((part, session(subject)?))).collect();
-    let machine = Table::of("measured.machine", &sessions, |_| 1)
+    let machine = Table::builder("measured.machine", &sessions, |_| 1)
         .text_key("of", |(part, _)| (*part).into())
         .computed_by(origin(tables))
         .words("date", "when", |(_, on)| on.date.clone())
@@ -210,7 +210,7 @@ pub fn tables(measured: &Measured) -> Vec<Table> {
     let single = measured.rows_about(Subject::Engine).filter(|row| row.n == n && row.chains == 1);
     let engine = single.filter_map(|row| row.microseconds_per_impact).last();
     let meaning = format!("time of an impact in the engine, one chain of {n} masses");
-    let impact = Table::of("measured.impact", &[()], |()| 1)
+    let impact = Table::builder("measured.impact", &[()], |()| 1)
         .computed_by(origin(tables))
         .real("engine", "us", 2, &meaning, |()| engine)
         .measured();
@@ -219,7 +219,7 @@ pub fn tables(measured: &Measured) -> Vec<Table> {
         single.filter(|row| row.chains == 1 && row.horizon_time.is_some()).collect();
     let finest = single.chunk_by(|a, b| (&a.name, a.n) == (&b.name, b.n)).filter_map(<[_]>::last);
     let finest: Vec<_> = finest.collect();
-    let chain = Table::of("measured.chain", &finest, |_| 1)
+    let chain = Table::builder("measured.chain", &finest, |_| 1)
         .text_key("program", |row| row.name.split(' ').next().unwrap_or_default().into())
         .key("n", "1", |row| row.n as f64)
         .computed_by(origin(tables))
@@ -228,7 +228,7 @@ pub fn tables(measured: &Measured) -> Vec<Table> {
         })
         .measured();
     let rows: Vec<&Measurement> = measured.rows_about(Subject::Method).collect();
-    let methods = Table::of("measured.methods", &rows, |row| row.chains as usize)
+    let methods = Table::builder("measured.methods", &rows, |row| row.chains as usize)
         .text_key("setting", |row| match row.value {
             Some(value) => format!("{}-{value}", row.name),
             None => row.name.clone(),

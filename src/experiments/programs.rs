@@ -87,7 +87,7 @@ fn tables(programs: &Vec<Program>) -> Vec<Table> {
     let among = |run: &Run, these: &[Outcome]| {
         run.outcomes.values().flatten().filter(|outcome| these.contains(outcome)).count() as u64
     };
-    let table = Table::of("programs.all", &rows, |_| 1)
+    let table = Table::builder("programs.all", &rows, |_| 1)
         .text_key("script", |(program, ..)| program.script.clone())
         .key("setting", "1", |(_, i, _)| *i as f64)
         .words("name", "program", |(.., run)| run.name.clone())
@@ -121,7 +121,7 @@ fn tables(programs: &Vec<Program>) -> Vec<Table> {
     let all_right = |scene: &Scene| {
         rows.iter().filter(|(.., run)| right(run.trial(scene)) == scene.cases.len()).count() as u64
     };
-    let by_scene = Table::of("programs.scenes", &scenes, |scene| scene.cases.len())
+    let by_scene = Table::builder("programs.scenes", &scenes, |scene| scene.cases.len())
         .text_key("scene", |scene| scene.id.clone())
         .computed_by(origin(complete))
         .count("cases", "its cases", |scene| scene.cases.len() as u64)

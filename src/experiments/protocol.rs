@@ -13,7 +13,7 @@ pub fn tables(counted: &Vec<Counted>) -> Vec<Table> {
     let mut halves: Vec<Estimate> = halves.collect();
     halves.sort_by(|a, b| a.value.total_cmp(&b.value));
     let printed = round_to_printed(map, printed_interval(), |rise| rise.half_height);
-    let summary = Table::of("protocol.all", &[map], |map| map.ensemble.realisations)
+    let summary = Table::builder("protocol.all", &[map], |map| map.ensemble.realisations)
         .count("realisations", "chains at each σ", |map| map.ensemble.realisations as u64)
         .count("sigmas", "values of σ", |map| map.ensemble.sigmas.len() as u64)
         .count("combinations", "transients times windows", |map| map.curves.len() as u64)
@@ -45,7 +45,7 @@ pub fn range(places: impl Iterator<Item = Option<Estimate>>) -> Option<Estimate>
 }
 
 fn cells(map: &Counted) -> Table {
-    Table::of("protocol.cells", &map.curves, |_| map.ensemble.realisations)
+    Table::builder("protocol.cells", &map.curves, |_| map.ensemble.realisations)
         .key("transient", TIME, |cell| cell.protocol.transient)
         .key("window", TIME, |cell| cell.protocol.window)
         .computed_by(origin(Curve::new))

@@ -139,7 +139,7 @@ fn replay(request: &Request) -> Result<ReplayResult, impact_chain::Error> {
 
 pub fn tables(replays: &Replays) -> Vec<Table> {
     let rows: Vec<_> = replays.parameters.iter().zip(&replays.results).collect();
-    let runs = Table::of("replay.runs", &rows, |_| 1)
+    let runs = Table::builder("replay.runs", &rows, |_| 1)
         .text_key("run", |((name, _), _)| name.clone())
         .computed_by(origin(run))
         .count("masses", "masses", |((_, request), _)| request.chain.masses as u64)
@@ -152,7 +152,7 @@ pub fn tables(replays: &Replays) -> Vec<Table> {
         .count("simultaneous", "ties", |(_, result)| result.simultaneous)
         .words("sha256", "of all impacts: time, gap, speed", |(_, result)| result.digest.clone())
         .done();
-    let sums = Table::of("replay.all", &[replays], |replays| replays.results.len())
+    let sums = Table::builder("replay.all", &[replays], |replays| replays.results.len())
         .computed_by(origin(run))
         .count("runs", "runs", |replays| replays.results.len() as u64)
         .count("impacts", "impacts of all", |replays| {

@@ -8,7 +8,7 @@ pub const RESTITUTION: Ensembles =
     ensembles("restitution", "restitution", params::restitution, tables);
 
 pub fn tables(counted: &Vec<Counted>) -> Vec<Table> {
-    let table = Table::of("restitution.curves", counted, |one| one.ensemble.realisations)
+    let table = Table::builder("restitution.curves", counted, |one| one.ensemble.realisations)
         .key("r", "1", |one| one.ensemble.chain.restitution)
         .computed_by(origin(Curve::new))
         .estimate("half_height", SIGMA, HALF_HEIGHT, half_height_all);

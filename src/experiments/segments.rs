@@ -127,7 +127,7 @@ impl Segment {
 pub fn tables(segments: &Segments) -> Vec<Table> {
     let [first, second] = &segments.periodic;
     let drawn = [(5.0, &segments.fig05), (6.0, &segments.fig06)];
-    let table = Table::of("segments.circuits", &drawn, |_| 1)
+    let table = Table::builder("segments.circuits", &drawn, |_| 1)
         .key("figure", "1", |(figure, _)| *figure)
         .computed_by(origin(Segment::masses_hit))
         .count("masses", "that take part", |(_, one)| one.masses_hit() as u64)
@@ -137,7 +137,7 @@ pub fn tables(segments: &Segments) -> Vec<Table> {
         .count("repeated", "of them repeated", |(_, one)| one.repeats().len() as u64)
         .done();
     let orbits = [(5.0, first), (6.0, second)];
-    let orbits = Table::of("segments.orbits", &orbits, |_| 1)
+    let orbits = Table::builder("segments.orbits", &orbits, |_| 1)
         .key("figure", "1", |(figure, _)| *figure)
         .computed_by(origin(record))
         .real("period", "1/omega", 4, "of the orbit", |(_, one)| 0.5 * (one.until - one.from))
@@ -148,7 +148,7 @@ pub fn tables(segments: &Segments) -> Vec<Table> {
     let exceptions = ["no impact", "impacts at once"].into_iter().zip(&segments.no_circuit);
     let exceptions: Vec<_> =
         exceptions.map(|(name, two)| (name, two, two.first_period())).collect();
-    let exceptions = Table::of("segments.no_circuit", &exceptions, |_| 1)
+    let exceptions = Table::builder("segments.no_circuit", &exceptions, |_| 1)
         .text_key("orbit", |(name, ..)| name.to_string())
         .computed_by(origin(record))
         .count("impacts", "in a period", |(_, _, one)| one.impacts.len() as u64)

@@ -82,7 +82,7 @@ impl SpaceTime {
 pub fn tables(run: &SpaceTime) -> Vec<Table> {
     let advances = run.advances();
     let median = advances.get(advances.len() / 2);
-    let table = Table::of("spacetime.run", &[run], |_| 1)
+    let table = Table::builder("spacetime.run", &[run], |_| 1)
         .chosen("sigma", SIGMA, "standard deviation σ", |run| Some(run.parameters.sigma))
         .chosen("until", TIME, "length of the run", |run| Some(run.parameters.until))
         .computed_by(origin(SpaceTime::starts))

@@ -9,7 +9,7 @@ pub const STARTS: Ensembles = ensembles("starts", "variants", params::starts, ta
 pub fn tables(variants: &Vec<Counted>) -> Vec<Table> {
     let rest = find_ensemble(variants, "rest").and_then(half_height_all);
     let less = |one: &Counted| Some(difference(half_height_all(one)?, rest?));
-    let table = Table::of("starts.variants", variants, |one| one.ensemble.realisations)
+    let table = Table::builder("starts.variants", variants, |one| one.ensemble.realisations)
         .text_key("chain", |one| one.ensemble.name.clone())
         .count("realisations", "chains at each σ", |one| one.ensemble.realisations as u64)
         .chosen("forcing_frequency", "omega", "", |one| Some(one.ensemble.chain.forcing_frequency))
@@ -33,7 +33,7 @@ pub fn against_theory(results: &Results, computed: &[Table]) -> Option<Vec<Table
     };
     const SHARE: &str = "of the distance from rest to the theory, with random free parts";
     let chains = find_ensemble(starts, "rest")?.ensemble.realisations;
-    let table = Table::of("starts.against_theory", &[()], |()| chains)
+    let table = Table::builder("starts.against_theory", &[()], |()| chains)
         .computed_by(origin(share_of_start))
         .estimate("share", "1", SHARE, |()| share(|one| one.first().rise.half_height))
         .estimate("share_of_all", "1", "the same by the mean of all", |()| share(half_height_all));

@@ -30,7 +30,7 @@ fn tables(counted: &Vec<Counted>) -> Vec<Table> {
 }
 
 fn of_second_seed(counted: &Vec<Counted>) -> Vec<Table> {
-    let table = Table::of("second_seed.rise", counted, |sweep| sweep.ensemble.realisations)
+    let table = Table::builder("second_seed.rise", counted, |sweep| sweep.ensemble.realisations)
         .count("seed", "master seed", |sweep| sweep.ensemble.seed)
         .computed_by(origin(Curve::new))
         .estimate("half_height", SIGMA, OF_ACTIVE, |sweep| sweep.first().rise.half_height);
@@ -45,7 +45,7 @@ fn run(sweep: &Counted, total: &Total) -> Table {
     let few = beyond.and_then(|beyond| beyond.realisations);
     let failed = sweep.runs.iter().map(|runs| runs.failed as u64).sum();
     let by_engine = sweep.runs.iter().map(|runs| runs.by_engine as u64).sum();
-    Table::of("sweep.run", &[&sweep.ensemble], |ensemble| ensemble.realisations)
+    Table::builder("sweep.run", &[&sweep.ensemble], |ensemble| ensemble.realisations)
         .count("gaps", "gaps of a chain", |ensemble| ensemble.chain.gaps() as u64)
         .chosen("transient", TIME, "", |_| Some(protocol.transient))
         .chosen("window", TIME, "", |_| Some(protocol.window))
@@ -65,7 +65,7 @@ fn run(sweep: &Counted, total: &Total) -> Table {
 fn rows(sweep: &Counted) -> Table {
     const KEPT: &str = "share of the realisations with an impact in the window";
     let kept_share = |row: &RisePoint| share(row.kept as u64, row.ran as u64);
-    Table::of("sweep.rows", &sweep.first().rows, |row| row.ran)
+    Table::builder("sweep.rows", &sweep.first().rows, |row| row.ran)
         .key("sigma", SIGMA, |row| row.sigma)
         .computed_by(origin(RisePoint::new))
         .estimate("kept", "1", KEPT, kept_share)
@@ -79,7 +79,7 @@ fn rows(sweep: &Counted) -> Table {
 
 fn rise_table(sweep: &Counted) -> Table {
     let interval = sweep.first().rise.half_height.map(|half| half.interval);
-    Table::of("sweep.rise", &[&sweep.first().rise], |_| sweep.ensemble.realisations)
+    Table::builder("sweep.rise", &[&sweep.first().rise], |_| sweep.ensemble.realisations)
         .computed_by(origin(Curve::new))
         .estimate("half_height", SIGMA, OF_ACTIVE, |rise| rise.half_height)
         .real("half_height_from", SIGMA, 4, "lower end of its interval", |_| Some(interval?[0]))
@@ -95,7 +95,7 @@ fn rise_table(sweep: &Counted) -> Table {
 fn modes(sweep: &Counted) -> Table {
     let (sigma, interval) =
         mode_intervals(sweep.first()).max_by_key(|(_, [low, high])| high - low).unzip();
-    Table::of("sweep.mode", &[()], |()| 0)
+    Table::builder("sweep.mode", &[()], |()| 0)
         .chosen("noisiest_sigma", SIGMA, "where the interval of the mode is longest", |()| sigma)
         .chosen("noisiest_from", "1", "its lower end", |()| Some(interval?[0] as f64))
         .chosen("noisiest_to", "1", "its upper end", |()| Some(interval?[1] as f64))
@@ -115,7 +115,7 @@ fn rare(sweep: &Counted, total: &Total) -> Table {
     let [near, slow] =
         [&total.near[..], &total.slow].map(|decades| decades.last().copied().unwrap_or(0));
     let [near_expected, slow_expected] = expected(total);
-    Table::of("sweep.rare", &[()], |()| 0)
+    Table::builder("sweep.rare", &[()], |()| 0)
         .computed_by(origin(expected))
         .count("near_simultaneous", "impacts next to another within the limit", |()| near)
         .real("near_expected", "1", 2, "the law's", |()| near_expected)
@@ -135,7 +135,7 @@ fn can_stick(sigma: &f64) -> f64 {
 }
 
 fn sticking() -> Table {
-    Table::of("sweep.sticking", &[printed_threshold(), STICKING], |_| 0)
+    Table::builder("sweep.sticking", &[printed_threshold(), STICKING], |_| 0)
         .key("sigma", SIGMA, |sigma| *sigma)
         .real("chance", "1", 1, "that the forces on a pair can press it together", can_stick)
         .done()

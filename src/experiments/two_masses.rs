@@ -55,14 +55,14 @@ pub fn run(parameters: &TwoMassesParams, progress: &Progress) -> Result<TwoMasse
 }
 
 pub fn tables(two_masses: &TwoMasses) -> Vec<Table> {
-    let bound = Table::of("two_masses.bound", &[&two_masses.parameters.directions], |_| 0)
+    let bound = Table::builder("two_masses.bound", &[&two_masses.parameters.directions], |_| 0)
         .computed_by(origin(safe_force))
         .real("force", SIGMA, 4, "below this two masses never hit", |runs| safe_force(&runs.chain))
         .count("directions", "random directions of the forcing", |runs| runs.realisations as u64)
         .done();
     const GREATEST: &str = "largest of the least forces with an impact, over bounds";
     let excess: Vec<_> = two_masses.parameters.times.iter().zip(&two_masses.excess).collect();
-    let excess = Table::of("two_masses.excess", &excess, |_| 0)
+    let excess = Table::builder("two_masses.excess", &excess, |_| 0)
         .key("time", TIME, |(time, _)| time.floor())
         .computed_by(origin(run))
         .real("greatest", "1", 6, GREATEST, |row| row.1[1])

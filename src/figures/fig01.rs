@@ -6,7 +6,7 @@ const LEFT: i32 = 640;
 const SPACING: i32 = 1187;
 const FLOOR: i32 = 2280;
 const HEIGHT: i32 = 1060;
-const RADIUS: i32 = 280;
+const RADIUS: i32 = 130;
 
 /// The masses as drawn: the place on the sheet in units of the spacing, the name, the place in the
 /// row, and how far the mass is displaced from its equilibrium.
@@ -62,7 +62,7 @@ fn draw_line<const N: usize>(sheet: &SheetArea, points: [(i32, i32); N], width: 
 }
 
 fn draw_mass(sheet: &SheetArea, root: i32, name: &str, bend: i32) -> Drawn {
-    sheet.draw(&line(vec![(root, 740), (root, FLOOR)], Stroke::dashed(GREY, HAIR, SHORT)))?;
+    sheet.draw(&line(vec![(root, 900), (root, FLOOR)], Stroke::dashed(GREY, HAIR, SHORT)))?;
     // A clamped stem with a load at its end: s²(3 − s)/2.
     let stem: [(i32, i32); 41] = std::array::from_fn(|i| {
         let s = i as f64 / 40.0;
@@ -71,8 +71,9 @@ fn draw_mass(sheet: &SheetArea, root: i32, name: &str, bend: i32) -> Drawn {
     });
     draw_line(sheet, stem, 50)?;
     let centre = (root + bend, HEIGHT);
-    sheet.draw(&markers(vec![centre], (Symbol::Ring, RADIUS, Stroke::solid(INK, 36))))?;
-    Ok(sheet.draw_text(name, &words(SMALL, INK, HPos::Center, VPos::Center), centre)?)
+    sheet.draw(&markers(vec![centre], (Symbol::Disc, RADIUS, Stroke::solid(INK, 36))))?;
+    let style = words(TEXT, INK, HPos::Center, VPos::Bottom);
+    Ok(sheet.draw_text(name, &style, (centre.0, HEIGHT - RADIUS - 70))?)
 }
 
 fn double_arrow(sheet: &SheetArea, a: (i32, i32), b: (i32, i32)) -> Drawn {
@@ -92,14 +93,14 @@ fn distances(sheet: &SheetArea) -> Drawn {
         draw_line(sheet, [(x, y - 90), (x, y + 90)], HAIR)?;
     }
     // The position of mass 1 and the gap between the masses 1 and 2, one behind the other.
-    let y = HEIGHT - 430;
+    let y = HEIGHT - 580;
     for x in [x1, x2] {
-        draw_line(sheet, [(x, y - 90), (x, HEIGHT - RADIUS)], HAIR)?;
+        draw_line(sheet, [(x, y - 90), (x, y + 90)], HAIR)?;
     }
     double_arrow(sheet, (LEFT + 20, y), (x1, y))?;
-    sheet.draw_text("*x*_{1}(*t*)", &style, ((LEFT + x1) / 2, y - 140))?;
+    sheet.draw_text("*x*_{1}(*t*)", &style, ((LEFT + x1) / 2, y - 110))?;
     double_arrow(sheet, (x1, y), (x2, y))?;
-    sheet.draw_text("Δ_{1}(*t*)", &style, ((x1 + x2) / 2, y - 140))?;
+    sheet.draw_text("Δ_{1}(*t*)", &style, ((x1 + x2) / 2, y - 110))?;
     // The force on mass 2.
     let start = x2 + RADIUS + 25;
     sheet.draw(&arrow(vec![(start + 480, HEIGHT), (start, HEIGHT)], Stroke::solid(BLUE, 40)))?;

@@ -1,6 +1,7 @@
 //! Draws Fig. 2: the most likely number of impacts against σ, simulated, and the distributions
 //! before, at and after its jump.
 
+use super::encoding::{MODE, gaps_axis};
 use super::prelude::*;
 use super::simulated::*;
 use crate::experiments::{JUMP, Results};
@@ -16,28 +17,28 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     );
     let at = |column: &str| results.number(&format!("{row}.{column}")).ok();
     let (place, single) = (at("place"), at("single_place"));
-    let sheet = Sheet::new(8300);
-    let y = Axis::linear(0.0, 1.15 * n as f64, 20.0, 2, "most likely number of impacts");
-    let panel = sheet.lettered("(a)", MAIN, sigma_axis(), y)?.outside(Outside::Cut);
+    let sheet = Sheet::new(8550);
+    let panel =
+        sheet.lettered("(a)", MAIN, sigma_axis(), gaps_axis(n, 20.0))?.outside(Outside::Cut);
     let rows = results.table("jump.rows")?;
     let modes = rows.curve(&[], "sigma", "mode")?;
     let peaks = rows.series(&[], "sigma", "peak")?;
     // Where a single gap or all gaps are the most likely number there is no interval.
     let bars = peaks.iter().filter(|(sigma, peak)| modes.contains(&(*sigma, peak.value)));
     let bars: Vec<_> = bars.map(|(s, peak)| (*s, peak.interval[0], peak.interval[1])).collect();
-    panel.bars("most likely number", &bars, 40, INTERVAL)?;
-    printed(&panel, 1.03 * n as f64)?;
-    panel.markers("most likely number", &modes, CROSSES)?;
-    panel.label(&format!("all {n} gaps"), (panel.x.hi, n as f64), (-1, 3), RED)?;
-    let guide = Stroke::dashed(RED, THIN, SHORT);
+    panel.bars(MODE.name, &bars, 40, INTERVAL)?;
+    printed(&panel, 1.02 * n as f64)?;
+    panel.markers(MODE.name, &modes, MODE.mark)?;
+    panel.label(&format!("{}: all gaps", MODE.name), (panel.x.hi, n as f64), (-1, 2), PURPLE)?;
+    let guide = Stroke::dashed(PURPLE, THIN, SHORT);
     if let (Some(place), Some(bar)) = (place, bars.last()) {
         panel.guide("jump", &[(place, bar.2), (place, n as f64)], guide)?;
         let text = format!("jump at *σ* = {}", short(place, 4));
-        panel.label(&text, (place, 0.86 * n as f64), (5, 0), RED)?;
+        panel.label(&text, (place, 0.7 * n as f64), (2, 0), PURPLE)?;
     }
     if let (Some(place), Some(bar)) = (single, bars.first()) {
         panel.guide("jump", &[(place, 1.0), (place, bar.1)], guide)?;
-        panel.label("one gap", (panel.x.lo, 1.0), (3, -4), RED)?;
+        panel.label("one gap", (panel.x.lo, 1.0), (3, -4), PURPLE)?;
     }
     if let Some(bar) = bars.get(bars.len() / 2) {
         panel.label("its 95 % interval", (bar.0, bar.1), (2, 3), GREY)?;
@@ -52,10 +53,14 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let shares = table.curve(&[("sigma", *sigma)], "gaps", "share")?;
         let columns: Vec<f64> = shares.iter().map(|(_, share)| *share).collect();
         let left = 1200 + 2400 * i as i32;
-        let x = Axis::linear(0.0, n as f64 + 3.0, 50.0, 5, "gaps");
+        // The name of all three axes stands below the middle one.
+        let mut x = gaps_axis(n, 100.0);
+        if i != 1 {
+            x.label.clear();
+        }
         let y = Axis::up_to(1.25 * top, "share of chains");
         let y = if i == 0 { y } else { y.without_numbers() };
-        let frame = Frame::new(left, 5300, left + 2150, 7400);
+        let frame = Frame::new(left, 5550, left + 2150, 7650);
         let panel = sheet.lettered(["(b)", "(c)", "(d)"][i], frame, x, y)?.outside(Outside::Cut);
         panel.columns("share of chains", &columns, Stroke::solid(RED, THIN))?;
         panel.label(&format!("*σ* = {}", short(*sigma, 4)), (50.0, 1.18 * top), (0, 0), INK)?;

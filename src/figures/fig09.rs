@@ -1,11 +1,10 @@
 //! Draws Fig. 9: (a) the most likely and (b) the expected number of impacts against p.
 
+use super::encoding::{MODE, THEORY};
 use super::prelude::*;
 use crate::experiments::Results;
 use crate::experiments::theory::law::{means, steps};
 use crate::params::VERTICES as N;
-
-const CURVE: Stroke = Stroke::solid(GREEN, LINE);
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(7950);
@@ -23,7 +22,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     most_likely([p_jump, jump], &mode)?;
     let text = format!("from 1 to {jump} at *p* = {}", short(p_jump, 4));
     mode.label(&text, (p_jump, jump / 2.0), (2, 0), INK)?;
-    expected.curve("mean", &means(), CURVE)?;
+    expected.curve("mean", &means(), THEORY.line)?;
     expected.label("*μ* → 1 as *p* → 0", (expected.x.lo, 1.0), (3, -2), INK)?;
 
     let description = describe!(
@@ -43,10 +42,10 @@ fn most_likely([p_jump, jump]: [f64; 2], panel: &Panel) -> Drawn {
         stairs.push((p, k_star as f64));
     }
     stairs.extend(stairs.last().map(|last| (1.0, last.1)));
-    panel.curve("most likely number, 1", &[(panel.x.lo, 1.0), (p_jump, 1.0)], CURVE)?;
-    panel.curve("most likely number", &stairs, CURVE)?;
-    panel.guide("jump", &[(p_jump, 1.0), (p_jump, jump)], Stroke::dashed(GREEN, THIN, DOTTED))?;
-    let look = |mark| (mark, 50, Stroke::solid(GREEN, THIN));
+    panel.curve("most likely number, 1", &[(panel.x.lo, 1.0), (p_jump, 1.0)], MODE.line)?;
+    panel.curve("most likely number", &stairs, MODE.line)?;
+    panel.guide("jump", &[(p_jump, 1.0), (p_jump, jump)], Stroke::dashed(PURPLE, THIN, DOTTED))?;
+    let look = |mark| (mark, 50, Stroke::solid(PURPLE, THIN));
     panel.markers("before the jump", &[(p_jump, 1.0)], look(Symbol::Disc))?;
     panel.markers("after the jump", &[(p_jump, jump)], look(Symbol::Ring))
 }

@@ -62,12 +62,12 @@ fn signs(p: f64) -> Axis {
 fn sign(panel: &Panel, p: f64) -> Drawn {
     let panel = panel.outside(Outside::Cut);
     panel.level("zero", 0.0, Stroke::solid(GREY, HAIR))?;
-    panel.curve("f", &f(p), Stroke::solid(BLUE, LINE))?;
+    panel.curve("f", &f(p), Stroke::solid(INK, LINE))?;
     let Some(zeros) = zeros(p) else {
         return panel.label("*f* < 0: no zero", (5.0, -1.0), (1, 0), INK);
     };
     let at = zeros.map(|k| (k, 0.0));
-    panel.markers("zeros of f", &at, (Symbol::Disc, 60, Stroke::solid(BLUE, HAIR)))?;
+    panel.markers("zeros of f", &at, (Symbol::Disc, 60, Stroke::solid(INK, HAIR)))?;
     if zeros[0] == zeros[1] {
         return panel.label("double zero", at[0], (1, -1), INK);
     }
@@ -83,12 +83,12 @@ fn weight(panel: &Panel, highest: &[usize], shown: &[f64]) -> Drawn {
     panel.guide("height at k = 1", &[(0.5, first), (panel.x.hi, first)], level)?;
     for &k in highest {
         let at = (k as f64, shown[k - 1]);
-        panel.markers("most likely", &[at], (Symbol::Disc, 75, Stroke::solid(RED, HAIR)))?;
+        panel.markers("most likely", &[at], (Symbol::Disc, 75, Stroke::solid(PURPLE, HAIR)))?;
         // Next to the first column, under the broken line; above the other columns.
         match (k, highest.len()) {
-            (1, 1) => panel.label("*k*^{∗} = 1", at, (2, 1), RED)?,
+            (1, 1) => panel.label("*k*^{∗} = 1", at, (2, 1), PURPLE)?,
             (1, _) => (),
-            _ => panel.label(&format!("*k*^{{∗}} = 1 or {k}"), at, (1, -1), RED)?,
+            _ => panel.label(&format!("*k*^{{∗}} = 1 or {k}"), at, (1, -1), PURPLE)?,
         }
     }
     Ok(())

@@ -1,8 +1,9 @@
 //! Draws Fig. 11: the impact probability p against the standard deviation σ of the forcing; on a
 //! logarithmic axis as well, which the paper does not have.
 
+use super::encoding::{FORCING, REST, THEORY};
 use super::prelude::*;
-use super::simulated::{FORCING, reaches};
+use super::simulated::reaches;
 use crate::experiments::Results;
 
 /// Lowest decade of the logarithmic panel.
@@ -22,15 +23,14 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let decades = sheet.lettered("(b)", Frame::new(1300, 4130, 8150, 7530), sigma(), y)?;
     let decades = decades.outside(Outside::Cut);
 
-    let (main, rest) = (Stroke::solid(BLUE, LINE), Stroke::dashed(GREY, LINE, SHORT));
     // Both vanish with σ.
     let from_zero = |points: &[(f64, f64)]| [&[(0.0, 0.0)], points].concat();
-    linear.curve("p for a start from rest", &from_zero(&from_rest), rest)?;
-    linear.curve("p of Eq. (25)", &from_zero(&p), main)?;
-    decades.curve("p for a start from rest", &from_rest, rest)?;
-    decades.curve("p of Eq. (25)", &p, main)?;
-    linear.label("start from rest", reaches(&from_rest, 0.35), (-3, 0), GREY)?;
-    linear.label("Eq. (25): random free parts", reaches(&p, 0.2), (2, 0), BLUE)?;
+    linear.curve("p for a start from rest", &from_zero(&from_rest), REST.line)?;
+    linear.curve("p of Eq. (25)", &from_zero(&p), THEORY.line)?;
+    decades.curve("p for a start from rest", &from_rest, REST.line)?;
+    decades.curve("p of Eq. (25)", &p, THEORY.line)?;
+    linear.label(REST.name, reaches(&from_rest, 0.35), (-3, 0), GREEN)?;
+    linear.label(THEORY.name, reaches(&p, 0.2), (2, 0), GREEN)?;
 
     let (level, bottom) = (results.number("theory.jump.p_jump")?, decades.y.lo);
     let jump = results.number("theory.relation.sigma_jump")?;
@@ -40,8 +40,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     decades.guide("jump from rest", &[(jump_rest, level), (jump_rest, bottom)], guide)?;
     let text = format!("*k*^{{∗}} jumps at *p* = {}", short(level, 4));
     decades.label(&text, (jump, level), (2, 6), INK)?;
-    decades.label(&number(jump, 4), (jump, level), (2, 2), BLUE)?;
-    decades.label(&number(jump_rest, 4), (jump_rest, level), (-1, -1), GREY)?;
+    decades.label(&number(jump, 4), (jump, level), (2, 2), GREEN)?;
+    decades.label(&number(jump_rest, 4), (jump_rest, level), (-1, -1), GREEN)?;
 
     let above = from_rest.iter().zip(&p).rfind(|(rest, p)| rest.1 > p.1);
     let description = describe!(

@@ -1,5 +1,6 @@
 //! Draws Fig. 12: the expected number of impacts, graph theory against simulation.
 
+use super::encoding::{HIT, THEORY, gaps_axis};
 use super::prelude::*;
 use super::simulated::*;
 use crate::experiments::Results;
@@ -9,15 +10,15 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(5450);
     let n = results.number("sweep.run.gaps")? as usize;
     let threshold = printed_threshold();
-    let panel = sheet.panel(MAIN, sigma_axis(), count_axis(n, "expected number of impacts"))?;
+    let panel = sheet.panel(MAIN, sigma_axis(), gaps_axis(n, 20.0))?;
     let panel = panel.outside(Outside::Cut);
     printed(&panel, 0.0)?;
     let simple = curve(results, "simple")?;
-    panel.curve("theory", &simple, Stroke::solid(GREEN, LINE))?;
+    panel.curve(THEORY.name, &simple, THEORY.line)?;
     let simulated = means(results)?;
-    panel.markers("simulation", &simulated, CROSSES)?;
+    panel.markers(HIT.name, &simulated, HIT.mark)?;
     panel.label("simulation", reaches(&simulated, 0.3 * n as f64), (-2, 0), RED)?;
-    panel.label("graph theory", reaches(&simple, 0.7 * n as f64), (2, 0), GREEN)?;
+    panel.label(THEORY.name, reaches(&simple, 0.7 * n as f64), (2, 0), GREEN)?;
     if let Ok(from) = results.number("sweep.rise.half_height") {
         // Where both come to half of all gaps, an arrow as long as the theory is late in σ.
         let (to, level) = (results.number("theory.relation.sigma_half")?, n as f64 / 2.0);

@@ -22,61 +22,52 @@ const CLASSES: [Class; 5] = [
     ("two vertices twice", "*ϕ*_{*N*}^{2}", INK, ALTERNATE),
 ];
 
+/// The name of the axis of probabilities.
+const PROBABILITY: &str = "*P*(*X* = *k*)";
+
+/// What is less than this part of an axis lies on zero, and is not drawn there.
+const VISIBLE: f64 = 0.02;
+
 /// Where a class is named: its place in [`CLASSES`], a k, and millimetres to the right and down
-/// from its curve there; names at one k stand in a row, at the height of the first.
+/// from its curve there.
 type Name = (usize, usize, i32, i32);
 
-/// A panel: p, first and last k, step between their numbers, the least P if logarithmic, names.
-type Shown = (f64, [f64; 3], Option<f64>, &'static [Name]);
-
-/// The names in (e) and (f).
-const E: [Name; 5] = [(0, 6, 1, -2), (1, 3, -3, 0), (2, 4, 0, 2), (3, 5, 0, 2), (4, 2, -1, 1)];
-const F: [Name; 5] = [(0, 81, 0, 2), (1, 79, -3, 3), (2, 79, 0, 3), (3, 79, 3, 3), (4, 72, -2, -1)];
+/// A panel: p, first and last k, step between their numbers, names.
+type Shown = (f64, [f64; 3], &'static [Name]);
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
-    let sheet = Sheet::new(11_200);
+    let sheet = Sheet::new(12_100);
     let [small, middle, large] = HIGHER_P;
-    let panels: [Shown; 6] = [
-        (small, [0.0, 8.0, 2.0], None, &[(0, 2, 2, 0)]),
-        (small, [0.0, 12.0, 4.0], None, &[(0, 8, 1, -2), (1, 3, 1, -2)]),
-        (middle, [0.0, 20.0, 5.0], None, &[(0, 3, 2, 0)]),
-        (large, [65.0, 95.0, 10.0], None, &[(4, 78, -2, 0)]),
-        (small, [0.0, 12.0, 4.0], Some(3e-10), &E),
-        (large, [65.0, 95.0, 10.0], Some(1e-7), &F),
+    let panels: [Shown; 4] = [
+        (small, [0.0, 8.0, 2.0], &[(0, 2, 2, 0)]),
+        (small, [0.0, 12.0, 4.0], &[(0, 8, 1, -2), (1, 3, 1, -2)]),
+        (middle, [0.0, 20.0, 5.0], &[(0, 3, 2, -1), (1, 15, 0, -3)]),
+        (large, [65.0, 95.0, 10.0], &[(4, 78, -2, 0)]),
     ];
-    for (i, (p, [first, last, step], least, names)) in panels.into_iter().enumerate() {
-        let label = if i % 2 == 0 { "*P*(*X* = *k*)" } else { "" };
-        let (classes, most) = (contributions(p), largest(&five(p)));
-        let y = match least {
-            Some(least) => Axis::decades(-12, 0, 2, label).between(least, 1.5 * most),
-            // The detail shows the higher orders: the simple circuits leave it at its upper edge.
-            None if i == 1 => Axis::up_to(1.5 * largest(&classes[1..].concat()), label),
-            None => Axis::up_to(most, label),
-        };
-        let (left, top) = (1200 + 4050 * (i as i32 % 2), 480 + 3250 * (i as i32 / 2));
-        let frame = Frame::new(left, top, left + 2950, top + 2050);
-        let x = Axis::linear(first, last, step, 2, "*k*");
-        let panel = sheet.panel(frame, x, y.column("P(X = k)"))?.outside(Outside::Cut);
-        panel.heading(LETTERS[i], &format!("*p* = {}", short(p, 3)))?;
-        panel.curve("all five classes", &over_k(&five(p)), SUM)?;
-        for (class, (name, _, colour, dash)) in classes.iter().zip(CLASSES) {
-            panel.curve(name, &over_k(class), Stroke::dashed(colour, LINE, dash))?;
-        }
+    for (i, (p, x, names)) in panels.iter().copied().enumerate() {
+        let classes = contributions(p);
+        // The detail shows the higher orders: the simple circuits leave it at its upper edge.
+        let most = if i == 1 { 1.5 * largest(&classes[1..].concat()) } else { largest(&five(p)) };
+        let y = Axis::up_to(most, if i % 2 == 0 { PROBABILITY } else { "" });
+        let (left, top) = (1200 + 4050 * (i as i32 % 2), 480 + 2700 * (i as i32 / 2));
+        let frame = Frame::new(left, top, left + 2950, top + 1700);
+        let panel = draw_panel(&sheet, LETTERS[i], frame, x, y, p)?;
         for &(class, k, right, down) in names {
-            let first = names.iter().find(|name| name.1 == k).map_or(class, |name| name.0);
             let (_, symbol, colour, _) = CLASSES[class];
-            panel.label(symbol, (k as f64, classes[first][k - 1]), (right, down), colour)?;
+            panel.label(symbol, (k as f64, classes[class][k - 1]), (right, down), colour)?;
         }
     }
-    let names = CLASSES.map(|(name, symbol, colour, dash)| {
-        (format!("{name}, {symbol}"), colour, Stroke::dashed(colour, LINE, dash))
-    });
-    let all = ("all five classes".to_string(), GREY, SUM);
-    for (i, (name, colour, stroke)) in (0..).zip([all].into_iter().chain(names)) {
-        let (left, y) = (1200 + 3500 * (i / 3), 10_250 + 360 * (i % 3));
-        sheet.area.draw(&line(vec![(left, y), (left + 500, y)], stroke))?;
-        let style = words(SMALL, colour, HPos::Left, VPos::Center);
-        sheet.area.draw_text(&name, &style, (left + 600, y))?;
+    for (letter, p, x, top) in
+        [("(e)", small, panels[1].1, 5880), ("(f)", large, panels[3].1, 8980)]
+    {
+        let y = Axis::decades(-12, 0, 2, PROBABILITY).between(3e-10, 1.5 * largest(&five(p)));
+        let frame = Frame::new(1200, top, 5300, top + 2150);
+        let panel = draw_panel(&sheet, letter, frame, x, y, p)?;
+        let ends = contributions(p)
+            .into_iter()
+            .zip(CLASSES)
+            .map(|(class, look)| (format!("{}, {}", look.0, look.1), over_k(&class), look.2));
+        panel.label_ends(&ends.collect::<Vec<_>>())?;
     }
 
     let share = |p: f64| {
@@ -93,4 +84,27 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         short(large, 3),
     );
     Ok(sheet.finish("Distributions with higher-order circuits", description))
+}
+
+/// Draws the sum and the classes; those that are not visible are data only.
+fn draw_panel(
+    sheet: &Sheet,
+    letter: &str,
+    frame: Frame,
+    [first, last, step]: [f64; 3],
+    y: Axis,
+    p: f64,
+) -> Result<Panel, Error> {
+    let x = Axis::linear(first, last, step, 2, "*k*");
+    let panel = sheet.panel(frame, x, y.column("P(X = k)"))?.outside(Outside::Cut);
+    panel.heading(letter, &format!("*p* = {}", short(p, 3)))?;
+    panel.curve("all five classes", &over_k(&five(p)), SUM)?;
+    for (class, (name, _, colour, dash)) in contributions(p).iter().zip(CLASSES) {
+        if panel.y.is_log || largest(class) > VISIBLE * panel.y.hi {
+            panel.curve(name, &over_k(class), Stroke::dashed(colour, LINE, dash))?;
+        } else {
+            panel.record(name, over_k(class));
+        }
+    }
+    Ok(panel)
 }

@@ -1,5 +1,6 @@
 //! Draws Fig. 14: simple and higher-order distributions become alike as p grows.
 
+use super::encoding::{HIGHER, THEORY};
 use super::prelude::*;
 use crate::experiments::Results;
 use crate::experiments::theory::higher::five;
@@ -19,8 +20,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let head = format!("{} *p* = {p}", LETTERS[i]);
         let panel = sheet.lettered(&head, frame, x, y)?.with_suffix(LETTERS[i]);
         for (name, values, side, stroke) in [
-            ("simple circuits", simple(at), -1, Stroke::solid(GREEN, LINE)),
-            ("higher orders", five(at), 1, Stroke::dashed(BLUE, LINE, LONG)),
+            ("simple circuits", simple(at), -1, THEORY.line),
+            ("higher orders", five(at), 1, HIGHER.line),
         ] {
             let (points, peak) = (over_k(&values), largest(&values));
             panel.curve(name, &points, stroke)?;

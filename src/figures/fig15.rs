@@ -1,5 +1,6 @@
 //! Draws Fig. 15: as Fig. 12, with higher orders, and their change, which the paper does not show.
 
+use super::encoding::{HIGHER, HIT, Look, THEORY, gaps_axis};
 use super::prelude::*;
 use super::simulated::*;
 use crate::experiments::Results;
@@ -8,18 +9,17 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(7900);
     let n = results.number("sweep.run.gaps")? as usize;
     let threshold = printed_threshold();
-    let (x, y) = (sigma_axis().without_numbers(), count_axis(n, "expected number of impacts"));
+    let (x, y) = (sigma_axis().without_numbers(), gaps_axis(n, 20.0));
     let panel = sheet.lettered("(a)", MAIN, x, y)?.outside(Outside::Cut);
     let (simple, higher) = (curve(results, "simple")?, curve(results, "higher")?);
-    let (green, blue) = (Stroke::solid(GREEN, LINE), Stroke::dashed(BLUE, LINE, LONG));
-    panel.curve("simple circuits", &simple, green)?;
-    panel.curve("five classes", &higher, blue)?;
+    panel.curve("simple circuits", &simple, THEORY.line)?;
+    panel.curve("five classes", &higher, HIGHER.line)?;
     let simulated = means(results)?;
     printed(&panel, 0.6 * n as f64)?;
-    panel.markers("simulation", &simulated, CROSSES)?;
+    panel.markers(HIT.name, &simulated, HIT.mark)?;
     panel.label("simulation", reaches(&simulated, 0.3 * n as f64), (-2, 0), RED)?;
     // The two lines nearly coincide, so a key names them.
-    for (name, line, high) in [("with higher orders", blue, 0.5), ("simple circuits", green, 0.4)] {
+    for (Look { name, line, .. }, high) in [(HIGHER, 0.5), (THEORY, 0.4)] {
         let sample = [0.17, 0.185].map(|sigma| (sigma, high * n as f64));
         panel.guide("key", &sample, line)?;
         panel.label(name, sample[1], (1, 0), line.colour)?;
@@ -27,10 +27,10 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let change: Vec<_> =
         higher.iter().zip(&simple).map(|(more, less)| (more.0, more.1 - less.1)).collect();
     let most = change.iter().map(|point| point.1).fold(0.0, f64::max);
-    let y = Axis::linear(0.0, 1.1 * most, 5.0, 5, "impacts added");
+    let y = Axis::linear(0.0, 1.1 * most, 5.0, 5, "gaps added");
     let added = sheet.lettered("(b)", Frame::new(1200, 5200, 8150, 7000), sigma_axis(), y)?;
     let added = added.outside(Outside::Cut);
-    added.curve("difference of the theories", &change, Stroke::solid(BLUE, LINE))?;
+    added.curve("difference of the theories", &change, HIGHER.line)?;
     added.label("by the higher orders", (reaches(&change, most).0, 0.7 * most), (5, 0), BLUE)?;
 
     let description = describe!(

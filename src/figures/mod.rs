@@ -1,8 +1,7 @@
 //! Lists the fifteen figures of the paper and those of this edition, one file each ([`ALL`]).
-//!
-//! Colours follow the captions of Figs. 12, 13 and 15: the simulation is red, simple circuits are
-//! green, higher-order circuits blue.
+//! How each quantity looks is said once, in `encoding.rs`.
 
+mod encoding;
 mod fig01;
 mod fig02;
 mod fig03;
@@ -29,18 +28,20 @@ mod s06;
 mod s07;
 mod s08;
 mod s09;
+mod s10;
+mod s11;
 mod simulated;
 
 pub use literate::figures::*;
 
 use crate::experiments::{
-    BIAS, BRANCHES, JUMP, MEASURED, NUCLEATION, PROTOCOL, RACE, SCALE, SEEDS, SEGMENTS, SPACE_TIME,
-    SWEEP, THEORY,
+    BIAS, BRANCHES, JUMP, MEASURED, NUCLEATION, PROGRAMS, PROTOCOL, RACE, SCALE, SEEDS, SEGMENTS,
+    SPACE_TIME, SWEEP, THEORY, TRIALS,
 };
 use literate::FigureSpec;
 
 /// All figures: first the paper's, then those of this edition.
-pub const ALL: [FigureSpec; 24] = [
+pub const ALL: [FigureSpec; 26] = [
     FigureSpec::new("fig01", &[], |_| fig01::draw()),
     FigureSpec::new("fig02", &[&JUMP], fig02::draw),
     FigureSpec::new("fig03", &[&SWEEP], fig03::draw),
@@ -57,12 +58,14 @@ pub const ALL: [FigureSpec; 24] = [
     FigureSpec::new("fig14", &[&THEORY], fig14::draw),
     FigureSpec::new("fig15", &[&SWEEP, &THEORY], fig15::draw),
     FigureSpec::new("s01", &[&SPACE_TIME], |results| s01::draw(results.of(&SPACE_TIME)?)),
-    FigureSpec::new("s02", &[&NUCLEATION, &SWEEP], s02::draw),
-    FigureSpec::new("s03", &[&SEEDS, &SWEEP, &PROTOCOL, &THEORY], s03::draw),
-    FigureSpec::new("s04", &[&BRANCHES, &PROTOCOL, &THEORY], s04::draw),
-    FigureSpec::new("s05", &[&THEORY], s05::draw),
-    FigureSpec::new("s06", &[&RACE, &MEASURED], s06::draw),
-    FigureSpec::new("s07", &[&RACE, &MEASURED], s07::draw),
-    FigureSpec::new("s08", &[&BIAS, &MEASURED], s08::draw),
-    FigureSpec::new("s09", &[&SCALE, &MEASURED], s09::draw),
+    FigureSpec::new("s02", &[&PROTOCOL], s02::draw),
+    FigureSpec::new("s03", &[&NUCLEATION, &SWEEP], s03::draw),
+    FigureSpec::new("s04", &[&SEEDS, &SWEEP, &PROTOCOL, &THEORY], s04::draw),
+    FigureSpec::new("s05", &[&BRANCHES, &PROTOCOL, &THEORY], s05::draw),
+    FigureSpec::new("s06", &[&THEORY], s06::draw),
+    FigureSpec::new("s07", &[&BIAS, &MEASURED], s07::draw),
+    FigureSpec::new("s08", &[&TRIALS, &PROGRAMS], s08::draw),
+    FigureSpec::new("s09", &[&RACE, &MEASURED], s09::draw),
+    FigureSpec::new("s10", &[&RACE, &MEASURED], s10::draw),
+    FigureSpec::new("s11", &[&SCALE, &MEASURED], s11::draw),
 ];

@@ -1,27 +1,11 @@
-//! Draws methods in all charts of speed and accuracy: this engine red, methods of fixed steps in
-//! colours of their own, all others grey, each named next to its symbols.
+//! Draws methods in all charts of speed and accuracy, each named next to its symbols.
 
+use super::encoding;
 use super::prelude::*;
 use crate::experiments::Measured;
 use crate::experiments::accuracy::race::Race;
 use crate::experiments::measured::Subject;
 use crate::params::{MethodName, Setting};
-
-/// The look of a method; its line joins the settings of the method.
-pub fn look(method: MethodName) -> Marker {
-    let (mark, size, colour) = match method {
-        MethodName::Certified => return (Symbol::Disc, LARGE + 12, Stroke::solid(RED, LINE)),
-        MethodName::Sampled => (Symbol::Ring, MEDIUM + 4, GREY),
-        MethodName::Advancement => (Symbol::OpenSquare, MEDIUM, GREY),
-        MethodName::RungeKutta => (Symbol::Disc, MEDIUM, GREY),
-        MethodName::MoreauJean => (Symbol::Plus, MEDIUM + 14, BLUE),
-        MethodName::Penalty => (Symbol::OpenTriangle, MEDIUM + 4, PURPLE),
-        MethodName::Verlet | MethodName::VerletAbreast | MethodName::Truth => {
-            (Symbol::Cross, MEDIUM, ORANGE)
-        }
-    };
-    (mark, size, Stroke::solid(colour, THIN))
-}
 
 /// A point of a setting, with its interval if it has one.
 pub type Point = (f64, f64, Option<[f64; 2]>);
@@ -30,13 +14,13 @@ pub type Point = (f64, f64, Option<[f64; 2]>);
 pub type Curves = Vec<(MethodName, Vec<(Setting, Point)>)>;
 
 /// Where the name of a method stands: next to which of its settings, with an offset to the right
-/// and down in millimetres; from afar a line leads to it.
+/// and down in millimetres.
 pub type Place = (MethodName, usize, (i32, i32));
 
-/// Returns the axis of times that S6 and S7 share.
-pub fn time_axis() -> Axis {
+/// Makes the axis of times over the engine's, up to `longest`.
+pub fn time_axis(longest: f64) -> Axis {
     Axis::decades(0, 4, 1, "measured time of an impact over the engine’s")
-        .between(0.2, 1.3e4)
+        .between(0.2, longest)
         .column("measured time over the engine's (1)")
 }
 
@@ -46,7 +30,7 @@ pub const FINEST: usize = usize::MAX;
 /// In the data each setting is a series.
 pub fn draw(panel: &Panel, curves: &Curves, places: &[Place]) -> Drawn {
     for (method, points) in curves {
-        let look = look(*method);
+        let look = encoding::method(*method);
         // Thin lines of several colours would not be told apart.
         let bar = Stroke::solid(if *method == MethodName::Certified { RED } else { GREY }, HAIR);
         for (setting, (x, y, interval)) in points {
@@ -63,14 +47,9 @@ pub fn draw(panel: &Panel, curves: &Curves, places: &[Place]) -> Drawn {
         let curve = curves.iter().find(|curve| curve.0 == *method).map(|curve| &curve.1);
         if let Some((_, (x, y, _))) = curve.and_then(|curve| curve.get(*setting).or(curve.last())) {
             let inside = (*x, y.clamp(panel.y.lo, panel.y.hi));
-            let colour = look(*method).2.colour;
+            let colour = encoding::method(*method).2.colour;
             let colour = if colour == GREY { INK } else { colour };
             panel.label_nearby(method.title(), inside, *offset, colour)?;
-            if offset.0 > 3 {
-                let ends = [20, 90].map(|share| (share * offset.0, share * offset.1));
-                let leader = PathElement::new(ends, Stroke::solid(colour, HAIR));
-                panel.area.draw(&(EmptyElement::at(inside) + leader))?;
-            }
         }
     }
     Ok(())
@@ -81,7 +60,7 @@ pub fn draw(panel: &Panel, curves: &Curves, places: &[Place]) -> Drawn {
 pub fn key(panel: &Panel, x: f64, heights: [f64; 3]) -> Drawn {
     let methods = [MethodName::MoreauJean, MethodName::Verlet, MethodName::Penalty];
     for (method, y) in methods.into_iter().zip(heights) {
-        panel.unrecorded().markers(method.title(), &[(x, y)], look(method))?;
+        panel.unrecorded().markers(method.title(), &[(x, y)], encoding::method(method))?;
         panel.label(method.title(), (x, y), (2, 0), INK)?;
     }
     Ok(())
@@ -105,12 +84,17 @@ pub fn over_engine(race: &Race, measured: &Measured, setting: Setting) -> Option
 /// Points of each method that has some, in the order of [`MethodName::ALL`], without chains side by
 /// side, whose times are not those of one.
 pub fn by_method<T>(rows: &[T], point: impl Fn(&T) -> Option<(Setting, Point)>) -> Curves {
+    let is_alone = |at: &(Setting, Point)| at.0.method != MethodName::VerletAbreast;
+    all_by_method(rows, |row| point(row).filter(is_alone))
+}
+
+/// Points of each method that has some, chains side by side included.
+pub fn all_by_method<T>(rows: &[T], point: impl Fn(&T) -> Option<(Setting, Point)>) -> Curves {
     let points_of = |method: MethodName| {
         let at = rows.iter().filter_map(&point).filter(|at| at.0.method == method);
         (method, at.collect::<Vec<_>>())
     };
-    let alone = MethodName::ALL.into_iter().filter(|one| *one != MethodName::VerletAbreast);
-    alone.map(points_of).filter(|(_, points)| !points.is_empty()).collect()
+    MethodName::ALL.into_iter().map(points_of).filter(|(_, points)| !points.is_empty()).collect()
 }
 
 /// Returns the engine and other programs on one chain of `masses` masses: for each setting the time

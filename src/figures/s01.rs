@@ -33,7 +33,7 @@ pub fn draw(run: &SpaceTime) -> Result<Figure, Error> {
     let from = (run.times.first().unwrap_or(&0.0) / 10.0).floor() * 10.0;
     let to = from + DETAIL;
     let near = Frame::new(1200, 5600, 8150, 8900);
-    let near = sheet.lettered("(b)", near, time(from, to, DETAIL / 4.0), gaps())?.unrecorded();
+    let near = sheet.lettered("(b)", near, time(from, to, DETAIL / 4.0), gaps())?;
     near.draw_series("first impacts", [ticks(points(run, from, to), 14, Stroke::solid(INK, 30))])?;
     starts(&near, run, to)?;
     if let Some((time, gap)) = run.times.first().zip(run.gaps.first()) {

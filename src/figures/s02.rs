@@ -1,85 +1,75 @@
-//! Draws Fig. S2: gaps that close by themselves, and chains with one of them.
+//! Draws Fig. S2: the half height of the rise for each transient and window, as a map.
 
 use super::prelude::*;
-use super::simulated::FORCING;
-use crate::experiments::theory::comparison::interpolate;
-use crate::experiments::{Results, sweep};
-use crate::params::printed_threshold;
-use literate::table::Table;
+use crate::experiments::Results;
+use crate::params::{Protocol, printed_threshold};
 
-/// The σ of (a).
-const SIGMAS: (f64, f64) = (0.055, 0.165);
+/// The numbers of a table's key as an axis of cells of equal width, counted from zero.
+fn cells(values: &[f64], label: &str) -> Axis {
+    let mut axis = Axis::linear(-0.5, values.len() as f64 - 0.5, 1.0, 1, label);
+    for (tick, value) in axis.ticks.iter_mut().zip(values) {
+        tick.label = Some(value.to_string());
+    }
+    axis
+}
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
-    let table = |name| results.table(name);
-    let (missing, shares) = (table("nucleation.times")?, table("nucleation.shares")?);
-    let masses = sweep::main(results)?.ensemble.chain.masses;
-    let sheet = Sheet::new(8600);
-    chains(&sheet, table("nucleation.chains")?, shares, table("sweep.rows")?, masses)?;
-    times(&sheet, missing)?;
-    let sigmas = missing.distinct("sigma")?;
+    let table = results.table("protocol.cells")?;
+    let (transients, windows) = (table.distinct("transient")?, table.distinct("window")?);
+    let sheet = Sheet::new(1450 + 400 * transients.len() as u32);
+    let frame = Frame::new(1300, 550, 8300, 550 + 400 * transients.len() as i32);
+    let x = cells(&windows, "window *W* (1/*ω*)");
+    let y = cells(&transients, "transient *T* (1/*ω*)").column("half_height (d omega^2)");
+    let panel = sheet.panel(frame, x, y)?;
+    let printed = number(printed_threshold(), 2);
+    panel.heading("", &format!("outlined: rounds to {printed}; broken frame: our protocol"))?;
+    let mut as_printed = Vec::new();
+    let end = |column: &str| results.number(&format!("protocol.all.{column}"));
+    let (least, most) = (end("least")?, end("largest")?);
+    for (row, transient) in transients.iter().enumerate() {
+        for (column, window) in windows.iter().enumerate() {
+            let keys = [("transient", *transient), ("window", *window)];
+            let at = (column as f64, row as f64);
+            let Ok(half) = table.number(&keys, "half_height") else {
+                panel.label("none", at, (0, 0), INK)?;
+                continue;
+            };
+            panel.record(&format!("*T* = {transient}"), [(*window, half)]);
+            let corners = [(at.0 - 0.5, at.1 - 0.5), (at.0 + 0.5, at.1 + 0.5)];
+            let share = 0.05 + 0.6 * (half - least) / (most - least);
+            let ground = Rectangle::new(corners, BLUE.mix(share).filled());
+            panel.draw_series("half height", [ground])?;
+            let text = words(SMALL, INK, HPos::Center, VPos::Center);
+            panel.area.draw(&Text::new(number(half, 3), at, text))?;
+            if number(half, 2) == printed {
+                as_printed.push(at);
+            }
+            if (Protocol { transient: *transient, window: *window }) == Protocol::default() {
+                let around = [(-0.4, -0.4), (0.4, -0.4), (0.4, 0.4), (-0.4, 0.4), (-0.4, -0.4)];
+                let around = around.map(|(x, y)| (at.0 + x, at.1 + y));
+                panel.guide("ours", &around, Stroke::dashed(RED, LINE, SHORT))?;
+            }
+        }
+    }
+    // The outline of what rounds to the printed value: sides with such a cell on one side only.
+    for &(x, y) in &as_printed {
+        for (right, up) in [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)] {
+            if !as_printed.contains(&(x + right, y + up)) {
+                let side =
+                    [-0.5, 0.5].map(|t| (x + 0.5 * right + t * up, y + 0.5 * up + t * right));
+                panel.guide("as printed", &side, Stroke::solid(INK, LINE + 12))?;
+            }
+        }
+    }
     let description = describe!(
-        "(a) Share of chains with an impact against σ: measured points on steep curves, farther left for longer chains. (b) What is \
-         missing of p after T, for σ from {} to {}: lines like 1/T².",
-        sigmas.first().copied().unwrap_or_default(),
-        sigmas.last().copied().unwrap_or_default(),
+        "A map of the half height over {} transients, upwards, and {} windows, to the right: from {} at the lower left it falls to {} at the \
+         upper right. {} cells, on a band from the upper left to the lower right, round to {printed} and are outlined; ours is one of \
+         them.",
+        transients.len(),
+        windows.len(),
+        short(most, 3),
+        short(least, 3),
+        as_printed.len(),
     );
-    Ok(sheet.finish("Gaps that close by themselves", description))
-}
-
-fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table, masses: usize) -> Drawn {
-    let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.02, 2, FORCING);
-    let y = Axis::linear(0.0, 1.05, 0.2, 2, "share of the chains");
-    let panel = sheet.lettered("(a)", Frame::new(1150, 430, 8150, 3730), x, y)?;
-    let mut kept = sweep.curve(&[], "sigma", "kept")?;
-    kept.retain(|(sigma, _)| *sigma > SIGMAS.0 && *sigma < SIGMAS.1);
-    panel.markers("kept", &kept, (Symbol::Cross, 42, Stroke::solid(INK, HAIR)))?;
-    let last = found.distinct("time")?.last().copied().unwrap_or_default();
-    let lengths = found.distinct("masses")?;
-    for (place, &masses) in lengths.iter().enumerate() {
-        let colour = ordered(place, lengths.len());
-        let (name, keys) = (format!("*n* = {masses}"), [("masses", masses), ("time", last)]);
-        let curve = shares.curve(&keys[..1], "sigma", "clumps")?;
-        panel.curve(&name, &curve, Stroke::solid(colour, LINE))?;
-        let marks = found.series(&keys, "sigma", "found")?;
-        panel.record(&format!("{name}, simulation"), marks.iter().copied());
-        let disc = (Symbol::Disc, LARGE, Stroke::solid(colour, THIN));
-        panel.unrecorded().estimates(&name, &marks, disc)?;
-        let rising: Vec<_> = curve.into_iter().map(|(sigma, share)| (share, sigma)).collect();
-        let (height, side) = if place == 0 { (0.3, (1, 1)) } else { (0.6, (-3, 0)) };
-        panel.label(
-            &name,
-            (interpolate(&rising, height).unwrap_or(SIGMAS.0), height),
-            side,
-            colour,
-        )?;
-    }
-    let Some((sigma, share)) = kept.iter().rfind(|(_, share)| *share < 0.9) else { return Ok(()) };
-    let leader = [(sigma + 0.001, share - 0.03), (sigma + 0.004, share - 0.1)];
-    panel.guide("leader", &leader, Stroke::solid(INK, HAIR))?;
-    panel.label(&format!("main sweep, *n* = {masses}"), leader[1], (1, 1), INK)
-}
-
-fn times(sheet: &Sheet, found: &Table) -> Drawn {
-    let x = Axis::decades(0, 4, 1, "time *T* (1/*ω*)").between(8.0, 9e3);
-    let y = Axis::decades(-6, 0, 2, "1 − *p*_{*T*}/*p*_{rest}");
-    let panel = sheet.lettered("(b)", Frame::new(1150, 5250, 8150, 7650), x, y)?;
-    let panel = panel.outside(Outside::Cut);
-    let sigmas = found.distinct("sigma")?;
-    let three = [sigmas.first().copied(), Some(printed_threshold()), sigmas.last().copied()];
-    let mut drawn = Vec::new();
-    for (place, sigma) in three.into_iter().flatten().enumerate() {
-        let colour = ordered(place, 3);
-        let points = found.curve(&[("sigma", sigma)], "time", "missing")?;
-        let thin = Stroke::solid(colour, THIN);
-        let name = format!("*σ* = {sigma}");
-        panel.marked_curve(&name, &points, thin, (Symbol::Disc, LARGE, thin))?;
-        // The names stand clear of the last discs.
-        let ends = points.into_iter().map(|(time, missing)| (1.1 * time, missing));
-        drawn.push((name, ends.collect::<Vec<_>>(), colour));
-    }
-    panel.label_ends(&drawn)?;
-    // T^{−2} through (10, 0.1).
-    panel.guide("power", &[(10.0, 0.1), (1e4, 1e-7)], Stroke::dashed(INK, THIN, SHORT))?;
-    panel.label("∝ *T*^{ −2}", (60.0, 2.8e-3), (-1, 1), INK)
+    Ok(sheet.finish("Half height for each transient and window", description))
 }

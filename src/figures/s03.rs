@@ -1,106 +1,85 @@
-//! Draws Fig. S3: how impacts spread from one gap, and the mean count that follows.
+//! Draws Fig. S3: gaps that close by themselves, and chains with one of them.
 
+use super::encoding::{FORCING, SHARE};
 use super::prelude::*;
-use super::simulated::{FORCING, count_axis};
-use crate::experiments::Results;
-use crate::experiments::ensembles::Counted;
-use crate::experiments::sweep;
 use crate::experiments::theory::comparison::interpolate;
+use crate::experiments::{Results, sweep};
 use crate::params::printed_threshold;
 use literate::table::Table;
 
 /// The σ of (a).
-const SIGMAS: (f64, f64) = (0.075, 0.165);
-
-/// Nucleation and growth, which is computed at some places only.
-const GROWN: (&str, Marker) = ("from seeds", (Symbol::OpenSquare, 44, Stroke::solid(INK, HAIR)));
+const SIGMAS: (f64, f64) = (0.055, 0.165);
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let table = |name| results.table(name);
+    let (missing, shares) = (table("nucleation.times")?, table("nucleation.shares")?);
+    let masses = sweep::main(results)?.ensemble.chain.masses;
     let sheet = Sheet::new(8600);
-    counts(&sheet, table("seeds.means")?, table("theory.curve")?, sweep::main(results)?)?;
-    let advance = table("seeds.advance")?;
-    advances(&sheet, advance)?;
-    halves(&sheet, table("seeds.rise")?, table("seeds.scores")?)?;
-    let sigmas = advance.distinct("sigma")?;
-    let [low, high] = [sigmas.first(), sigmas.last()].map(|end| end.copied().unwrap_or_default());
+    chains(&sheet, table("nucleation.chains")?, shares, table("sweep.rows")?, masses)?;
+    times(&sheet, missing)?;
+    let sigmas = missing.distinct("sigma")?;
     let description = describe!(
-        "(a) Mean count of all against σ: simulated points along the prediction from seeds; circuits steeper. (b) Advance \
-         against time at σ from {low} to {high}: slower than ∝ t, the more so the smaller σ. (c) Half height falls with T.",
+        "(a) Share of chains with an impact against σ: measured points on steep curves, farther left for longer chains. (b) What is \
+         missing of p after T, for σ from {} to {}: lines like 1/T².",
+        sigmas.first().copied().unwrap_or_default(),
+        sigmas.last().copied().unwrap_or_default(),
     );
-    Ok(sheet.finish("From one gap to many: nucleation and growth", description))
+    Ok(sheet.finish("Gaps that close by themselves", description))
 }
 
-fn counts(sheet: &Sheet, means: &Table, theory: &Table, sweep: &Counted) -> Drawn {
-    let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.01, 2, FORCING);
-    let y = count_axis(sweep.ensemble.chain.gaps(), "mean number of gaps");
+fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table, masses: usize) -> Drawn {
+    let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.02, 2, FORCING);
+    let y = Axis::linear(0.0, 1.05, 0.2, 2, "share of chains with an impact");
     let panel = sheet.lettered("(a)", Frame::new(1150, 430, 8150, 3730), x, y)?;
-    let transient = [("transient", sweep.first().protocol.transient)];
-    let lines = [
-        ("circuits, Eq. (25)", "simple", Stroke::dashed(BLUE, LINE, SHORT), 50.0),
-        ("circuits, from rest", "rest", Stroke::dashed(PURPLE, LINE, LONG), 62.0),
-    ];
-    for (name, column, stroke, height) in lines {
-        let mut curve = theory.curve(&[], "sigma", column)?;
-        curve.retain(|(sigma, _)| *sigma >= SIGMAS.0 && *sigma <= SIGMAS.1);
-        panel.curve(name, &curve, stroke)?;
-        let rising: Vec<_> = curve.into_iter().map(|(sigma, mean)| (mean, sigma)).collect();
-        let place = (interpolate(&rising, height).unwrap_or(SIGMAS.0), height);
-        panel.label(name, place, (-2, 0), stroke.colour)?;
+    let mut kept = sweep.curve(&[], "sigma", "kept")?;
+    kept.retain(|(sigma, _)| *sigma > SIGMAS.0 && *sigma < SIGMAS.1);
+    panel.markers(SHARE.name, &kept, SHARE.mark)?;
+    let last = found.distinct("time")?.last().copied().unwrap_or_default();
+    let lengths = found.distinct("masses")?;
+    for (place, &masses) in lengths.iter().enumerate() {
+        let colour = ordered(place, lengths.len());
+        let (name, keys) = (format!("*n* = {masses}"), [("masses", masses), ("time", last)]);
+        let curve = shares.curve(&keys[..1], "sigma", "clumps")?;
+        panel.curve(&name, &curve, Stroke::solid(colour, LINE))?;
+        let marks = found.series(&keys, "sigma", "found")?;
+        panel.record(&format!("{name}, simulation"), marks.iter().copied());
+        let disc = (Symbol::Disc, LARGE, Stroke::solid(colour, THIN));
+        panel.unrecorded().estimates(&name, &marks, disc)?;
+        let rising: Vec<_> = curve.into_iter().map(|(sigma, share)| (share, sigma)).collect();
+        let (height, side) = if place == 0 { (0.3, (1, 1)) } else { (0.6, (-3, 0)) };
+        panel.label(
+            &name,
+            (interpolate(&rising, height).unwrap_or(SIGMAS.0), height),
+            side,
+            colour,
+        )?;
     }
-    let grown = means.series(&transient, "sigma", "grown")?;
-    panel.joined_estimates(GROWN.0, &grown, GROWN.1)?;
-    if let Some((sigma, mean)) = grown.iter().find(|(_, mean)| mean.value > 85.0) {
-        panel.label(GROWN.0, (*sigma, mean.value), (-1, -1), INK)?;
-    }
-    let inside =
-        sweep.first().rows.iter().filter(|row| row.sigma > SIGMAS.0 && row.sigma < SIGMAS.1);
-    let bars: Vec<_> = inside
-        .filter_map(|row| Some((row.sigma, row.mean_all?.value, row.mean_all?.interval?)))
-        .collect();
-    let look = (Symbol::Disc, 42, Stroke::solid(RED, THIN));
-    let ends: Vec<_> = bars.iter().map(|(x, _, [low, high])| (*x, *low, *high)).collect();
-    panel.bars("simulation", &ends, 35, look.2)?;
-    let points: Vec<_> = bars.iter().map(|(x, y, _)| (*x, *y)).collect();
-    panel.markers("simulation", &points, look)?;
-    let low = points.iter().copied().rfind(|(_, mean)| *mean < 40.0);
-    let Some((sigma, mean)) = low else { return Ok(()) };
-    let leader = [(sigma + 0.001, mean - 3.0), (sigma + 0.004, mean - 10.0)];
+    let Some((sigma, share)) = kept.iter().rfind(|(_, share)| *share < 0.9) else { return Ok(()) };
+    let leader = [(sigma + 0.001, share - 0.03), (sigma + 0.004, share - 0.1)];
     panel.guide("leader", &leader, Stroke::solid(RED, HAIR))?;
-    panel.label("simulation", leader[1], (1, 1), RED)
+    panel.label(&format!("main sweep, *n* = {masses}"), leader[1], (1, 1), RED)
 }
 
-fn advances(sheet: &Sheet, advance: &Table) -> Drawn {
-    let x = Axis::decades(1, 4, 1, "time since first impact (1/*ω*)").between(20.0, 7000.0);
-    let y = Axis::decades(-1, 2, 1, "advance (gaps)").between(0.3, 80.0);
-    let panel =
-        sheet.lettered("(b)", Frame::new(1150, 5250, 3850, 7650), x, y)?.outside(Outside::Cut);
-    let sigmas = advance.distinct("sigma")?;
+fn times(sheet: &Sheet, found: &Table) -> Drawn {
+    let x = Axis::decades(0, 4, 1, "time *T* (1/*ω*)").between(8.0, 9e3);
+    let y = Axis::decades(-6, 0, 2, "1 − *p*_{*T*}/*p*_{rest}");
+    let panel = sheet.lettered("(b)", Frame::new(1150, 5250, 8150, 7650), x, y)?;
+    let panel = panel.outside(Outside::Cut);
+    let sigmas = found.distinct("sigma")?;
     let three = [sigmas.first().copied(), Some(printed_threshold()), sigmas.last().copied()];
     let mut drawn = Vec::new();
     for (place, sigma) in three.into_iter().flatten().enumerate() {
-        let points = advance.curve(&[("sigma", sigma)], "time", "advance")?;
-        let (name, colour) = (format!("*σ* = {sigma}"), ordered(place, 3));
-        panel.curve(&name, &points, Stroke::solid(colour, LINE))?;
-        drawn.push((name, points, colour));
+        let colour = ordered(place, 3);
+        let points = found.curve(&[("sigma", sigma)], "time", "missing")?;
+        let thin = Stroke::solid(colour, THIN);
+        let name = format!("*σ* = {sigma}");
+        panel.marked_curve(&name, &points, thin, (Symbol::Disc, LARGE, thin))?;
+        // The names stand clear of the last discs.
+        let ends = points.into_iter().map(|(time, missing)| (1.1 * time, missing));
+        drawn.push((name, ends.collect::<Vec<_>>(), colour));
     }
     panel.label_ends(&drawn)?;
-    let straight = Stroke::dashed(INK, THIN, SHORT);
-    panel.guide("constant speed", &[(10.0, 1.0), (1e3, 100.0)], straight)?;
-    panel.label("∝ *t*", (200.0, 20.0), (-1, -1), INK)
-}
-
-fn halves(sheet: &Sheet, rise: &Table, scores: &Table) -> Drawn {
-    let x = Axis::decades(1, 4, 1, "transient *T* (1/*ω*)").between(20.0, 2000.0);
-    let y = Axis::linear(0.1, 0.14, 0.01, 2, "half height (*d ω*^{2})")
-        .column("half_height (d omega^2)");
-    let panel =
-        sheet.lettered("(c)", Frame::new(5600, 5250, 8150, 7650), x, y)?.outside(Outside::Edge);
-    let grown = rise.curve(&[], "transient", "half_height")?;
-    panel.marked_curve(GROWN.0, &grown, GROWN.1.2, GROWN.1)?;
-    let look = (Symbol::Disc, LARGE, Stroke::solid(RED, THIN));
-    let found = scores.series(&[], "transient", "half_height")?;
-    panel.estimates("simulation", &found, look)?;
-    panel.label("simulation", (150.0, 0.1355), (1, 0), RED)?;
-    panel.label("from seeds", (300.0, 0.109), (-1, 0), INK)
+    // T^{−2} through (10, 0.1).
+    panel.guide("power", &[(10.0, 0.1), (1e4, 1e-7)], Stroke::dashed(INK, THIN, SHORT))?;
+    panel.label("∝ *T*^{ −2}", (60.0, 2.8e-3), (-1, 1), INK)
 }

@@ -1,105 +1,90 @@
-//! Draws Fig. S4: chains from rest and from above after several transients.
+//! Draws Fig. S4: how impacts spread from one gap, and the mean count that follows.
 
+use super::encoding::{ALL, FORCING, HALF_HEIGHT, REST, SEEDS, THEORY, gaps_axis};
 use super::prelude::*;
-use super::simulated::FORCING;
-use crate::experiments::{PROTOCOL, Results};
+use crate::experiments::Results;
+use crate::experiments::theory::comparison::interpolate;
+use crate::params::printed_threshold;
 use literate::table::Table;
 
-/// The window of the half heights.
-const WINDOW: f64 = 200.0;
-
-/// The branches: column, name, colour, and symbols for shorter and for the longest chains.
-const BRANCHES: [(&str, &str, RGBColor, [Symbol; 2]); 2] = [
-    ("from_rest", "from rest", BLUE, [Symbol::Ring, Symbol::Disc]),
-    ("from_above", "from above", RED, [Symbol::OpenSquare, Symbol::Square]),
-];
+/// The σ of (a).
+const SIGMAS: (f64, f64) = (0.075, 0.165);
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
-    let halves = results.table("branches.half_heights")?;
-    let lengths = halves.distinct("masses")?;
-    let longest = largest(&lengths);
-    let sheet = Sheet::new(8800);
-    half_heights(&sheet, results, halves, &lengths)?;
-    shares(&sheet, results.table("branches.shares")?, longest)?;
-    let ends = |column| -> Result<String, Error> {
-        let places = halves.curve(&[("masses", longest)], "transient", column)?;
-        let ends = places.first().zip(places.last());
-        Ok(ends.map_or("none".into(), |(first, last)| {
-            format!("from {} to {}", short(first.1, 3), short(last.1, 3))
-        }))
-    };
+    let table = |name| results.table(name);
+    let sheet = Sheet::new(8600);
+    counts(&sheet, results)?;
+    let advance = table("seeds.advance")?;
+    advances(&sheet, advance)?;
+    halves(&sheet, table("seeds.rise")?, table("seeds.scores")?)?;
+    let sigmas = advance.distinct("sigma")?;
+    let [low, high] = [sigmas.first(), sigmas.last()].map(|end| end.copied().unwrap_or_default());
     let description = describe!(
-        "(a) Half height against T: from rest it falls, {}; from above it rises, {}. (b) Share of gaps with an impact against σ, \
-         early and late: two curves far apart that approach.",
-        ends("from_rest")?,
-        ends("from_above")?,
+        "(a) Mean count of all against σ: simulated points along the prediction from seeds; circuits steeper. (b) Advance \
+         against time at σ from {low} to {high}: slower than ∝ t, the more so the smaller σ. (c) Half height falls with T.",
     );
-    Ok(sheet.finish("Chains from rest and from above", description))
+    Ok(sheet.finish("From one gap to many: nucleation and growth", description))
 }
 
-fn half_heights(sheet: &Sheet, results: &Results, halves: &Table, lengths: &[f64]) -> Drawn {
-    let x = Axis::decades(1, 6, 1, "transient *T* (1/*ω*)").between(10.0, 1.25e5);
-    let y = Axis::linear(0.06, 0.14, 0.01, 2, "*σ*_{1/2} (*d ω*^{2})")
-        .column("half_height (d omega^2)");
+fn counts(sheet: &Sheet, results: &Results) -> Drawn {
+    let (theory, sweep) = (results.table("theory.curve")?, results.table("sweep.rows")?);
+    let run = |column: &str| results.number(&format!("sweep.run.{column}"));
+    let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.01, 2, FORCING);
+    let y = gaps_axis(run("gaps")? as usize, 20.0);
+    let panel = sheet.lettered("(a)", Frame::new(1150, 430, 8150, 3730), x, y)?;
+    let transient = [("transient", run("transient")?)];
+    for (look, column, height) in [(THEORY, "simple", 50.0), (REST, "rest", 62.0)] {
+        let mut curve = theory.curve(&[], "sigma", column)?;
+        curve.retain(|(sigma, _)| *sigma >= SIGMAS.0 && *sigma <= SIGMAS.1);
+        panel.curve(look.name, &curve, look.line)?;
+        let rising: Vec<_> = curve.into_iter().map(|(sigma, mean)| (mean, sigma)).collect();
+        let place = (interpolate(&rising, height).unwrap_or(SIGMAS.0), height);
+        panel.label(look.name, place, (-2, 0), GREEN)?;
+    }
+    let grown = results.table("seeds.means")?.series(&transient, "sigma", "grown")?;
+    panel.joined_estimates(SEEDS.name, &grown, SEEDS.mark)?;
+    if let Some((sigma, mean)) = grown.iter().find(|(_, mean)| mean.value > 85.0) {
+        panel.label(SEEDS.name, (*sigma, mean.value), (-1, -1), INK)?;
+    }
+    let mut all = sweep.series(&[], "sigma", "mean_all")?;
+    all.retain(|(sigma, _)| *sigma > SIGMAS.0 && *sigma < SIGMAS.1);
+    panel.joined_estimates(ALL.name, &all, ALL.mark)?;
+    let low = all.iter().rfind(|(_, mean)| mean.value < 40.0);
+    let Some((sigma, mean)) = low else { return Ok(()) };
+    let leader = [(sigma + 0.001, mean.value - 3.0), (sigma + 0.004, mean.value - 10.0)];
+    panel.guide("leader", &leader, Stroke::solid(RED, HAIR))?;
+    panel.label(ALL.name, leader[1], (1, 1), RED)
+}
+
+fn advances(sheet: &Sheet, advance: &Table) -> Drawn {
+    let x = Axis::decades(1, 4, 1, "time since first impact (1/*ω*)").between(20.0, 7000.0);
+    let y = Axis::decades(-1, 2, 1, "advance (gaps)").between(0.3, 80.0);
     let panel =
-        sheet.lettered("(a)", Frame::new(1150, 430, 6000, 3930), x, y)?.outside(Outside::Cut);
-    let masses = results.of(&PROTOCOL)?.first().map_or(0, |map| map.ensemble.chain.masses);
-    let rest = format!("from rest, *n* = {masses}");
-    let bound = results.number("theory.relation.sigma_kept_half")?;
-    panel.level("bound by seeds", bound, Stroke::dashed(INK, THIN, DOTTED))?;
-    panel.label(&format!("bound {rest}"), (10.0, bound), (1, 1), INK)?;
-    let map = results.table("protocol.cells")?;
-    let map = map.curve(&[("window", WINDOW)], "transient", "half_height_all")?;
-    panel.curve(&rest.replace('*', ""), &map, Stroke::solid(GREY, LINE))?;
-    let mut ends = Vec::new();
-    for (place, masses) in lengths.iter().enumerate() {
-        let longest = usize::from(place + 1 == lengths.len());
-        for (column, name, colour, marks) in BRANCHES {
-            let (mark, dash) = (marks[longest], [SHORT, SOLID][longest]);
-            let points = halves.series(&[("masses", *masses)], "transient", column)?;
-            let look = (mark, MEDIUM, Stroke::dashed(colour, THIN, dash));
-            let name = format!("{name}, *n* = {masses}");
-            panel.joined_estimates(&name, &points, look)?;
-            // The names stand clear of the last symbols.
-            let end = points.last().map(|(time, half)| (1.2 * time, half.value));
-            ends.push((name, Vec::from_iter(end), colour));
-        }
+        sheet.lettered("(b)", Frame::new(1150, 5250, 3850, 7650), x, y)?.outside(Outside::Cut);
+    let sigmas = advance.distinct("sigma")?;
+    let three = [sigmas.first().copied(), Some(printed_threshold()), sigmas.last().copied()];
+    let mut drawn = Vec::new();
+    for (place, sigma) in three.into_iter().flatten().enumerate() {
+        let points = advance.curve(&[("sigma", sigma)], "time", "advance")?;
+        let (name, colour) = (format!("*σ* = {sigma}"), ordered(place, 3));
+        panel.curve(&name, &points, Stroke::solid(colour, LINE))?;
+        drawn.push((name, points, colour));
     }
-    panel.label_ends(&ends)?;
-    let start = map.get(3).copied().unwrap_or((10.0, bound));
-    panel.label_nearby(&rest, start, (1, -1), GREY)
+    panel.label_ends(&drawn)?;
+    let straight = Stroke::dashed(INK, THIN, SHORT);
+    panel.guide("constant speed", &[(10.0, 1.0), (1e3, 100.0)], straight)?;
+    panel.label("∝ *t*", (200.0, 20.0), (-1, -1), INK)
 }
 
-/// Shares after the first transient and after the last.
-fn shares(sheet: &Sheet, shares: &Table, masses: f64) -> Drawn {
-    let sigmas = shares.distinct("sigma")?;
-    let least = sigmas.iter().copied().fold(f64::INFINITY, f64::min);
-    let x = Axis::linear(least - 0.005, largest(&sigmas) + 0.005, 0.01, 2, FORCING);
-    let y = Axis::linear(0.0, 1.0, 0.2, 2, "share of active gaps");
-    let panel = sheet.lettered("(b)", Frame::new(1150, 5250, 8150, 8000), x, y)?;
-    let transients = shares.distinct("transient")?;
-    let ends = [transients.first(), transients.last()];
-    let mut labels = Vec::new();
-    for (place, transient) in ends.into_iter().flatten().enumerate() {
-        for (column, name, colour, marks) in BRANCHES {
-            let points =
-                shares.series(&[("masses", masses), ("transient", *transient)], "sigma", column)?;
-            let name = format!("{name}, *T* = {}", in_powers(*transient));
-            let look = (marks[1], MEDIUM, Stroke::solid(colour, THIN));
-            panel.joined_estimates(&name, &points, look)?;
-            // Where a label has room next to its curve.
-            let (at, side) = match (column, place) {
-                ("from_above", 1) => (points.first(), (-2, 0)),
-                ("from_rest", 0) => (points.iter().find(|point| point.1.value >= 0.2), (2, 1)),
-                _ => (points.last(), (2, 0)),
-            };
-            let Some((sigma, share)) = at else { continue };
-            labels.push((name, (*sigma, share.value), side, colour));
-        }
-    }
-    // Labels keep clear of what is drawn before them.
-    for (name, at, side, colour) in labels {
-        panel.label_nearby(&name, at, side, colour)?;
-    }
-    Ok(())
+fn halves(sheet: &Sheet, rise: &Table, scores: &Table) -> Drawn {
+    let x = Axis::decades(1, 4, 1, "transient *T* (1/*ω*)").between(20.0, 2000.0);
+    let y = Axis::linear(0.1, 0.14, 0.01, 2, HALF_HEIGHT).column("half_height (d omega^2)");
+    let panel =
+        sheet.lettered("(c)", Frame::new(5600, 5250, 8150, 7650), x, y)?.outside(Outside::Edge);
+    let grown = rise.curve(&[], "transient", "half_height")?;
+    panel.marked_curve(SEEDS.name, &grown, SEEDS.mark.2, SEEDS.mark)?;
+    let found = scores.series(&[], "transient", "half_height")?;
+    panel.joined_estimates(ALL.name, &found, ALL.mark)?;
+    panel.label("all chains", (150.0, 0.1355), (1, 0), RED)?;
+    panel.label(SEEDS.name, (300.0, 0.109), (-1, 0), INK)
 }

@@ -1,63 +1,104 @@
-//! Draws Fig. S5: the most likely number and its jump for many vertices.
+//! Draws Fig. S5: chains from rest and from above after several transients.
 
+use super::encoding::{FORCING, HALF_HEIGHT};
 use super::prelude::*;
-use crate::experiments::Results;
-use crate::experiments::theory::large;
-use crate::params::DRAWN_VERTICES;
+use crate::experiments::{PROTOCOL, Results};
 use literate::table::Table;
 
-/// The p N in (a): around the onset, where the sizes differ.
-const RANGE: (f64, f64) = (0.9, 1.5);
+/// The window of the half heights.
+const WINDOW: f64 = 200.0;
+
+/// The branches: column, name, colour, and symbols for shorter and for the longest chains.
+const BRANCHES: [(&str, &str, RGBColor, [Symbol; 2]); 2] = [
+    ("from_rest", "from rest", INK, [Symbol::Ring, Symbol::Disc]),
+    ("from_above", "from above", ORANGE, [Symbol::OpenSquare, Symbol::Square]),
+];
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
-    let sheet = Sheet::new(8450);
-    shares(&sheet)?;
-    jumps(&sheet, results.table("theory.large")?)?;
+    let halves = results.table("branches.half_heights")?;
+    let lengths = halves.distinct("masses")?;
+    let longest = largest(&lengths);
+    let sheet = Sheet::new(8800);
+    half_heights(&sheet, results, halves, &lengths)?;
+    shares(&sheet, results.table("branches.shares")?, longest)?;
+    let ends = |column| -> Result<String, Error> {
+        let places = halves.curve(&[("masses", longest)], "transient", column)?;
+        let ends = places.first().zip(places.last());
+        Ok(ends.map_or("none".into(), |(first, last)| {
+            format!("from {} to {}", short(first.1, 3), short(last.1, 3))
+        }))
+    };
     let description = describe!(
-        "(a) The most likely number over N against p N: zero, a jump soon after p N = 1, then a curve; the larger N, the \
-     smaller the jump. (b) Height of the jump against N, with the rule."
+        "(a) Half height against T: from rest it falls, {}; from above it rises, {}. (b) Share of gaps with an impact against σ, \
+         early and late: two curves far apart that approach.",
+        ends("from_rest")?,
+        ends("from_above")?,
     );
-    Ok(sheet.finish("The theory at large N", description))
+    Ok(sheet.finish("Chains from rest and from above", description))
 }
 
-fn shares(sheet: &Sheet) -> Drawn {
-    let x = Axis::linear(RANGE.0, RANGE.1, 0.1, 2, "*p N*");
-    let y = Axis::decades(-6, 0, 1, "*k*^{∗}/*N*").between(4e-7, 1.0);
+fn half_heights(sheet: &Sheet, results: &Results, halves: &Table, lengths: &[f64]) -> Drawn {
+    let x = Axis::decades(1, 6, 1, "transient *T* (1/*ω*)").between(10.0, 1.25e5);
+    let y = Axis::linear(0.06, 0.14, 0.01, 2, HALF_HEIGHT).column("half_height (d omega^2)");
     let panel =
-        sheet.lettered("(a)", Frame::new(1150, 430, 8150, 3730), x, y)?.outside(Outside::Cut);
-    // Beyond their jumps all lie on the limit: the last to jump is drawn last, and each has a disc
-    // where it arrives.
-    for (place, vertices) in DRAWN_VERTICES.into_iter().enumerate().rev() {
-        let colour = ordered(place, DRAWN_VERTICES.len());
-        let stroke = Stroke::solid(colour, LINE);
-        // No value lies within the jump.
-        let [before, after] = large::shares(vertices);
-        let name = format!("N = {vertices}");
-        panel.curve(&name, &before, stroke)?;
-        panel.curve(&name, &after, stroke)?;
-        let jump: Vec<_> = before.last().into_iter().chain(after.first()).copied().collect();
-        panel.guide("jump", &jump, Stroke::dashed(colour, THIN, DOTTED))?;
-        let disc = (Symbol::Disc, LARGE, Stroke::solid(colour, THIN));
-        panel.unrecorded().markers(&name, &jump[1..], disc)?;
-        let name = format!("*N* = {}", power_of_ten(vertices.ilog10() as i32));
-        panel.label(&name, (RANGE.0, 1.0 / vertices as f64), (1, -1), colour)?;
+        sheet.lettered("(a)", Frame::new(1150, 430, 6000, 3930), x, y)?.outside(Outside::Cut);
+    let masses = results.of(&PROTOCOL)?.first().map_or(0, |map| map.ensemble.chain.masses);
+    let rest = format!("from rest, *n* = {masses}");
+    let bound = results.number("theory.relation.sigma_kept_half")?;
+    panel.level("bound by seeds", bound, Stroke::dashed(INK, THIN, DOTTED))?;
+    panel.label(&format!("bound {rest}"), (10.0, bound), (1, 1), INK)?;
+    let map = results.table("protocol.cells")?;
+    let map = map.curve(&[("window", WINDOW)], "transient", "half_height_all")?;
+    panel.curve(&rest.replace('*', ""), &map, Stroke::solid(GREY, LINE))?;
+    let mut ends = Vec::new();
+    for (place, masses) in lengths.iter().enumerate() {
+        let longest = usize::from(place + 1 == lengths.len());
+        for (column, name, colour, marks) in BRANCHES {
+            let (mark, dash) = (marks[longest], [SHORT, SOLID][longest]);
+            let points = halves.series(&[("masses", *masses)], "transient", column)?;
+            let look = (mark, MEDIUM, Stroke::dashed(colour, THIN, dash));
+            let name = format!("{name}, *n* = {masses}");
+            panel.joined_estimates(&name, &points, look)?;
+            // The names stand clear of the last symbols.
+            let end = points.last().map(|(time, half)| (1.2 * time, half.value));
+            ends.push((name, Vec::from_iter(end), colour));
+        }
     }
-    // On top, so that it is seen on the curves that lie on it.
-    panel.curve("limit", &large::limit(), Stroke::dashed(ORANGE, LINE, LONG))?;
-    panel.label("limit: max(0, 1 − 1/(*p N*))", (1.17, 1.0 - 1.0 / 1.17), (0, -3), ORANGE)
+    panel.label_ends(&ends)?;
+    let start = map.get(3).copied().unwrap_or((10.0, bound));
+    panel.label_nearby(&rest, start, (1, -1), GREY)
 }
 
-fn jumps(sheet: &Sheet, table: &Table) -> Drawn {
-    let x = Axis::decades(1, 6, 1, "*N*");
-    let y = Axis::decades(-3, 0, 1, "*k*^{∗}/*N* at the jump");
-    let panel = sheet.lettered("(b)", Frame::new(1150, 5250, 8150, 7550), x, y)?;
-    let rule = table.curve(&[], "n", "rule")?;
-    let rule: Vec<_> = rule.into_iter().map(|(n, k)| (n, k / n)).collect();
-    panel.curve("rule", &rule, Stroke::solid(INK, THIN))?;
-    let exact = table.curve(&[], "n", "share")?;
-    panel.markers("exact", &exact, (Symbol::Disc, 55, Stroke::solid(RED, THIN)))?;
-    if let Some(place) = exact.get(4) {
-        panel.label("exact", *place, (2, -1), RED)?;
+/// Shares after the first transient and after the last.
+fn shares(sheet: &Sheet, shares: &Table, masses: f64) -> Drawn {
+    let sigmas = shares.distinct("sigma")?;
+    let least = sigmas.iter().copied().fold(f64::INFINITY, f64::min);
+    let x = Axis::linear(least - 0.005, largest(&sigmas) + 0.005, 0.01, 2, FORCING);
+    let y = Axis::linear(0.0, 1.0, 0.2, 2, "share of gaps with an impact");
+    let panel = sheet.lettered("(b)", Frame::new(1150, 5250, 8150, 8000), x, y)?;
+    let transients = shares.distinct("transient")?;
+    let ends = [transients.first(), transients.last()];
+    let mut labels = Vec::new();
+    for (place, transient) in ends.into_iter().flatten().enumerate() {
+        for (column, name, colour, marks) in BRANCHES {
+            let points =
+                shares.series(&[("masses", masses), ("transient", *transient)], "sigma", column)?;
+            let name = format!("{name}, *T* = {}", in_powers(*transient));
+            let look = (marks[1], MEDIUM, Stroke::solid(colour, THIN));
+            panel.joined_estimates(&name, &points, look)?;
+            // Where a label has room next to its curve.
+            let (at, side) = match (column, place) {
+                ("from_above", 1) => (points.first(), (-2, 0)),
+                ("from_rest", 0) => (points.iter().find(|point| point.1.value >= 0.2), (2, 1)),
+                _ => (points.last(), (2, 0)),
+            };
+            let Some((sigma, share)) = at else { continue };
+            labels.push((name, (*sigma, share.value), side, colour));
+        }
     }
-    panel.label("*k*^{2} = 2*N*(ln *k* − 1)", (3e4, 0.0168), (-1, 1), INK)
+    // Labels keep clear of what is drawn before them.
+    for (name, at, side, colour) in labels {
+        panel.label_nearby(&name, at, side, colour)?;
+    }
+    Ok(())
 }

@@ -1,68 +1,64 @@
-//! Draws Fig. S6: error and misses of the next impact against measured time, for every method.
+//! Draws Fig. S6: the most likely number and its jump for many vertices.
 
+use super::encoding::MODE;
 use super::prelude::*;
-use super::rivals::{self, FINEST, Place, by_method, over_engine};
-use crate::experiments::accuracy::race::{DISPLACED, Entry};
-use crate::experiments::{MEASURED, RACE, Results};
-use crate::params::MethodName::*;
+use crate::experiments::Results;
+use crate::experiments::theory::large;
+use crate::params::DRAWN_VERTICES;
+use literate::table::Table;
 
-/// Where the names stand in the upper panel.
-const NAMES: [Place; 4] = [
-    (Certified, FINEST, (-2, 0)),
-    (Sampled, FINEST, (2, 0)),
-    (Advancement, 0, (-2, 0)),
-    (RungeKutta, FINEST, (2, 0)),
-];
-
-/// Where they stand in the lower panel.
-const MISSED: [Place; 7] = [
-    (Certified, FINEST, (2, -2)),
-    (Sampled, 0, (0, -2)),
-    (Advancement, 0, (2, 0)),
-    (RungeKutta, FINEST, (1, -2)),
-    (MoreauJean, 2, (2, 0)),
-    (Verlet, 2, (-2, 0)),
-    (Penalty, 2, (1, 3)),
-];
+/// The p N in (a): around the onset, where the sizes differ.
+const RANGE: (f64, f64) = (0.9, 1.5);
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
-    let (race, measured) = (results.of(&RACE)?, results.of(&MEASURED)?);
-    let sheet = Sheet::new(8300);
-    let error = Axis::decades(-18, 0, 3, "error in time (1/*ω*)");
-    let error = error.column("error of the next impact's time (1/omega)");
-    let (upper, x) = (Frame::new(1300, 430, 8250, 4330), rivals::time_axis().without_numbers());
-    let errors = sheet.lettered("(a)", upper, x, error)?.outside(Outside::Edge);
-    errors.level("counts as missed", DISPLACED, Stroke::dashed(GREY, HAIR, SHORT))?;
-    errors.label("missed above", (errors.x.hi, DISPLACED), (-1, -1), INK)?;
-
-    let tried = race.entries.iter().map(|e| e.tried).max().unwrap_or(1);
-    let bottom = -(pxfm::f_log10(tried as f64).ceil() as i32) - 1;
-    let mut axis = Axis::decades(bottom, 0, 1, "share missed");
-    // Below one in all that were tried there is nothing but zero.
-    axis.ticks.retain(|tick| tick.at <= axis.lo || tick.at >= 9.5 * axis.lo);
-    if let Some(first) = axis.ticks.first_mut() {
-        first.label = Some("none".into());
-    }
-    let misses = Frame::new(1300, 4950, 8250, 7250);
-    let misses = sheet.lettered("(b)", misses, rivals::time_axis(), axis)?.outside(Outside::Edge);
-    misses.level("a break", 7.0 * misses.y.lo, Stroke::dashed(GREY, HAIR, SHORT))?;
-    let time = |e: &Entry| over_engine(race, measured, e.setting);
-    let median = |e: &Entry| Some((e.setting, (time(e)?, e.errors?[0], e.errors)));
-    let share = |e: &Entry| e.misses as f64 / e.tried.max(1) as f64;
-    let missed = |e: &Entry| Some((e.setting, (time(e)?, share(e), None)));
-    rivals::draw(&errors, &by_method(&race.entries, median), &NAMES)?;
-    rivals::key(&errors, 330.0, [1e-6, 3e-8, 1e-9])?;
-    rivals::better(&errors, (0.7, 1e-10), (0.35, 1e-13))?;
-    rivals::draw(&misses, &by_method(&race.entries, missed), &MISSED)?;
-    let certified = race.entries.iter().find(|e| e.setting.method == Certified);
-    let largest = certified.and_then(|entry| Some(entry.errors?[1]));
+    let sheet = Sheet::new(8450);
+    shares(&sheet)?;
+    jumps(&sheet, results.table("theory.large")?)?;
     let description = describe!(
-        "Against measured time over the engine's, a mark for each method and step or tolerance, n = {}, σ = {}: (a) median error of the time of the next \
-         impact, with a line up to the largest, which for the engine is {}; (b) the share of states from which the \
-         next impact is missed.",
-        race.parameters.growth.chain.masses,
-        race.parameters.growth.sigma,
-        largest.map_or("unknown".into(), |error| short(error, 2)),
+        "(a) The most likely number over N against p N: zero, a jump soon after p N = 1, then a curve; the larger N, the \
+     smaller the jump. (b) Height of the jump against N, with the rule."
     );
-    Ok(sheet.finish("Error and misses of the next impact", description))
+    Ok(sheet.finish("The theory at large N", description))
+}
+
+fn shares(sheet: &Sheet) -> Drawn {
+    let x = Axis::linear(RANGE.0, RANGE.1, 0.1, 2, "*p N*");
+    let y = Axis::decades(-6, 0, 1, "*k*^{∗}/*N*").between(4e-7, 1.0);
+    let panel =
+        sheet.lettered("(a)", Frame::new(1150, 430, 8150, 3730), x, y)?.outside(Outside::Cut);
+    // Beyond their jumps all lie on the limit, so the last to jump is widest and below the others,
+    // and each has a disc where it arrives.
+    for (place, vertices) in DRAWN_VERTICES.into_iter().enumerate() {
+        let colour = ordered(place, DRAWN_VERTICES.len());
+        let stroke = Stroke::solid(colour, [96, 66, 40][place]);
+        // No value lies within the jump.
+        let [before, after] = large::shares(vertices);
+        let name = format!("N = {vertices}");
+        panel.curve(&name, &before, stroke)?;
+        panel.curve(&name, &after, stroke)?;
+        let jump: Vec<_> = before.last().into_iter().chain(after.first()).copied().collect();
+        panel.guide("jump", &jump, Stroke::dashed(colour, THIN, DOTTED))?;
+        let disc = (Symbol::Disc, LARGE, Stroke::solid(colour, THIN));
+        panel.unrecorded().markers(&name, &jump[1..], disc)?;
+        let name = format!("*N* = {}", power_of_ten(vertices.ilog10() as i32));
+        panel.label(&name, (RANGE.0, 1.0 / vertices as f64), (1, -1), colour)?;
+    }
+    // On top, so that it is seen on the curves that lie on it.
+    panel.curve("limit", &large::limit(), Stroke::dashed(ORANGE, THIN, LONG))?;
+    panel.label("limit: max(0, 1 − 1/(*p N*))", (1.17, 1.0 - 1.0 / 1.17), (0, -3), ORANGE)
+}
+
+fn jumps(sheet: &Sheet, table: &Table) -> Drawn {
+    let x = Axis::decades(1, 6, 1, "*N*");
+    let y = Axis::decades(-3, 0, 1, "*k*^{∗}/*N* at the jump");
+    let panel = sheet.lettered("(b)", Frame::new(1150, 5250, 8150, 7550), x, y)?;
+    let rule = table.curve(&[], "n", "rule")?;
+    let rule: Vec<_> = rule.into_iter().map(|(n, k)| (n, k / n)).collect();
+    panel.curve("rule", &rule, Stroke::solid(INK, THIN))?;
+    let exact = table.curve(&[], "n", "share")?;
+    panel.markers("exact", &exact, MODE.mark)?;
+    if let Some(place) = exact.get(4) {
+        panel.label("exact", *place, (2, -1), PURPLE)?;
+    }
+    panel.label("*k*^{2} = 2*N*(ln *k* − 1)", (3e4, 0.0168), (-1, 1), INK)
 }

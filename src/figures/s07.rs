@@ -1,125 +1,59 @@
-//! Draws Fig. S7: how long all impacts of a run are right, against its time and one impact's error.
+//! Draws Fig. S7: speed against accuracy of a mean, the difference by each method from the engine's
+//! mean against the time that the method takes, once for each question.
 
+use super::encoding;
 use super::prelude::*;
-use super::rivals::{self, FINEST, Place, by_method, over_engine, programs};
-use crate::experiments::accuracy::race::{DISPLACED, Entry, Race};
-use crate::experiments::{MEASURED, RACE, Results};
-use crate::params::MethodName::*;
-use impact_numerics::statistics::Estimate;
-
-/// The rounding of doubles, 2⁻⁵³.
-const ROUNDING: f64 = f64::EPSILON / 2.0;
-
-/// Where names stand in (a).
-const NAMES: [Place; 3] =
-    [(Certified, FINEST, (0, 2)), (Advancement, 1, (-2, 0)), (RungeKutta, 3, (2, 0))];
-
-/// The same in (b), for other programs: name of the row, name here.
-const PROGRAMS: [(&str, &str, usize, (i32, i32)); 6] = [
-    ("impact-paper", "engine", FINEST, (2, 0)),
-    ("heyoka", "heyoka", FINEST, (0, -2)),
-    ("SUNDIALS CVODE", "CVODE", FINEST, (2, 0)),
-    ("SciPy DOP853", "SciPy", FINEST, (-2, 0)),
-    ("pymunk", "pymunk", FINEST, (0, -2)),
-    ("diffsol tsit45", "diffsol", 0, (-2, 0)),
-];
-
-/// The same for (c).
-const BY_ERROR: [Place; 3] =
-    [(Certified, FINEST, (-2, 0)), (Sampled, 0, (-2, 0)), (Advancement, 2, (0, 3))];
-
-/// Returns the time in which an error ε grows to [`DISPLACED`], ln([`DISPLACED`]/ε)/λ, and its
-/// interval: [low, value, high].
-fn allowed(race: &Race, error: f64) -> Option<[f64; 3]> {
-    let growth = race.growth.growth()?;
-    let folds = pxfm::f_log(DISPLACED / error).max(0.0);
-    Some([growth.interval[1], growth.value, growth.interval[0]].map(|rate| folds / rate))
-}
+use super::rivals;
+use crate::experiments::accuracy::tables::{Compared, compared};
+use crate::experiments::{BIAS, MEASURED, Results};
+use crate::params::{MethodName, Setting};
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
-    let (race, measured) = (results.of(&RACE)?, results.of(&MEASURED)?);
-    let sheet = Sheet::new(10900);
-    let top = (race.parameters.until / 50.0).ceil() * 50.0;
-    let x = rivals::time_axis;
-    let (by_time, others) = (Frame::new(1100, 430, 8250, 3230), Frame::new(1100, 3800, 8250, 6600));
-    let by_time = sheet.lettered("(a)", by_time, x().without_numbers(), horizon_axis(top))?;
-    let by_time = by_time.outside(Outside::Edge);
-    let others = sheet.lettered("(b)", others, x(), horizon_axis(top))?.outside(Outside::Edge);
-    let x = Axis::decades(-18, 0, 3, "median error of the next impact (1/*ω*)").between(1e-20, 0.5);
-    let by_error = Frame::new(1100, 7750, 8250, 9950);
-    let by_error = sheet.lettered("(c)", by_error, x, horizon_axis(top))?.outside(Outside::Edge);
-
-    chaos(&by_error, race)?;
-    if let Some([_, ceiling, _]) = allowed(race, ROUNDING).filter(|t| t[1] < top) {
-        let name = "what chaos allows in double precision";
-        by_time.level(name, ceiling, Stroke::dashed(GREY, LINE, SHORT))?;
-        by_time.label(name, (by_time.x.hi, ceiling), (-1, -1), GREY)?;
-    }
-    let run = &race.parameters.growth;
-    let time = |e: &Entry| over_engine(race, measured, e.setting);
-    let point = |x: f64, t: Estimate| (x, t.value, Some([t.value - t.error, t.value + t.error]));
-    let timed = |e: &Entry| Some((e.setting, point(time(e)?, e.horizon()?)));
-    let median = |e: &Entry| Some((e.setting, point(e.errors?[0], e.horizon()?)));
-    let timed = by_method(&race.entries, timed);
-    rivals::draw(&by_time, &timed, &NAMES)?;
-    rivals::draw(&by_error, &by_method(&race.entries, median), &BY_ERROR)?;
-    for (program, points) in programs(measured, run.chain.masses) {
-        let Some(place) = PROGRAMS.iter().find(|place| place.0 == program) else { continue };
-        let colour = if place.1 == "engine" { RED } else { INK };
-        let diamond = (Symbol::OpenDiamond, LARGE, Stroke::solid(colour, THIN));
-        others.marked_curve(program, &points, diamond.2, diamond)?;
-        if let Some(at) = points.get(place.2).or(points.last()) {
-            others.label_nearby(place.1, (at.0, at.1.min(top)), place.3, colour)?;
-        }
-    }
-    // The coarsest and the finest setting; the first of Runge–Kutta lies on the fixed steps.
-    for (method, points) in &timed {
-        let offsets = match method {
-            Advancement => [(1, -1), (2, 0)],
-            RungeKutta => [(1, 0); 2],
-            Sampled => [(-1, -1), (1, 1)],
-            Verlet => [(0, -1), (0, -1)],
-            _ => continue,
+    let (biases, measured) = (results.of(&BIAS)?, results.of(&MEASURED)?);
+    let rows = compared(biases);
+    let means = &biases.parameters.means;
+    let sheet = Sheet::new(7900);
+    let clear = rows.iter().filter(|row| row.is_clear()).count();
+    for (i, of) in means.iter().enumerate() {
+        let chains = &of.chains;
+        let time = |setting| {
+            measured.thousand(measured.method(setting, chains.chain.masses, chains.sigma)?)
         };
-        let first = points.first().filter(|_| *method != RungeKutta);
-        let ends = first.into_iter().chain(points.iter().skip(1).last());
-        for ((setting, (x, t, _)), offset) in ends.zip(offsets) {
-            by_time.label_nearby(&in_powers(setting.value), (*x, t.min(top)), offset, GREY)?;
-        }
+        let (left, top) = (1200 + 3950 * (i as i32 % 2), 480 + 3150 * (i as i32 / 2));
+        let frame = Frame::new(left, top, left + 3000, top + 2450);
+        let x = Axis::decades(-2, 2, 1, "time (s)").between(0.04, 100.0);
+        let x = x.column("time of one core for a thousand chains (s)");
+        let x = if i < 2 { x.without_numbers() } else { x };
+        let y =
+            Axis::linear(-100.0, 50.0, 50.0, 5, "difference (%)").column("error of the mean (%)");
+        let y = if i % 2 == 0 { y } else { y.without_numbers() };
+        let panel = sheet.panel(frame, x, y)?.outside(Outside::Edge);
+        panel.heading(LETTERS[i], &format!("*σ* = {}, *T* = {}", chains.sigma, of.transient))?;
+        panel.level("engine", 0.0, Stroke::solid(RED, HAIR))?;
+        let own: Vec<_> = rows.iter().filter(|row| row.sigma == chains.sigma).collect();
+        let point = |row: &&Compared| {
+            let share = row.share?;
+            let interval = share.interval.map(|end| 100.0 * end);
+            Some((row.setting, (time(row.setting)?, 100.0 * share.value, Some(interval))))
+        };
+        rivals::draw(&panel, &rivals::all_by_method(&own, point), &[])?;
+        let engine = Setting { method: MethodName::Certified, value: 0.0, stop: 0.0 };
+        let at = time(engine).map(|time| (time, 0.0));
+        panel.unrecorded().markers("engine", at.as_slice(), encoding::method(engine.method))?;
     }
-    by_time.label_nearby("sampling", (6.5, 0.77 * top), (1, 0), INK)?;
-    rivals::key(&by_time, 700.0, [0.48, 0.37, 0.26].map(|share| share * top))?;
-    rivals::better(&by_time, (2500.0, 0.68 * top), (1300.0, 0.79 * top))?;
-    rivals::better(&others, (0.5, 0.5 * top), (0.28, 0.7 * top))?;
-    by_error.label_nearby("fixed steps", (0.2, 6.0), (-1, -2), INK)?;
-    let growth = race.growth.growth().map_or("unknown".into(), |g| short(g.value, 3));
+    let shown = MethodName::ALL.into_iter().filter(|method| *method != MethodName::Truth);
+    for (i, method) in shown.enumerate() {
+        let (x, y) = ([1100, 2950, 4250, 6300][i % 4], 7200 + 400 * (i as i32 / 4));
+        sheet.area.draw(&markers(vec![(x, y)], encoding::method(method)))?;
+        let style = words(SMALL, INK, HPos::Left, VPos::Center);
+        sheet.area.draw_text(method.title(), &style, (x + 130, y))?;
+    }
     let description = describe!(
-        "Time up to which a run has every impact right, n = {}, σ = {}: against measured time over the engine's (a) for this program, \
-         mean of {} chains, the engine at the top left, and (b) for others on one chain; (c) against the median error of one impact, \
-         with the line that λ = {growth} allows.",
-        run.chain.masses,
-        run.sigma,
-        race.parameters.chains,
+        "Difference of the mean number of impacting gaps from the engine's against time, for {} questions; each mark, with its 95 % interval, \
+         is a method with a step or tolerance. Float32 Verlet is left of the engine and level with it; others are slower or off. {clear} of \
+         {} differences are clear.",
+        means.len(),
+        rows.len(),
     );
-    Ok(sheet.finish("How long a run is true", description))
-}
-
-fn horizon_axis(top: f64) -> Axis {
-    let step = if top > 60.0 { 50.0 } else { 10.0 };
-    Axis::linear(0.0, top, step, 1, "horizon *t* (1/*ω*)").column("horizon (1/omega)")
-}
-
-/// The line that chaos allows, with the band of λ's interval.
-fn chaos(panel: &Panel, race: &Race) -> Drawn {
-    let at = |error: f64| allowed(race, error).map(|t| (error, t));
-    let errors = (0..=72).map(|i| pxfm::f_exp10(-18.0 + 0.25 * f64::from(i)));
-    let grid: Vec<_> = errors.filter(|error| panel.x.contains(*error)).filter_map(at).collect();
-    let cut = |t: f64| t.min(panel.y.hi);
-    let below = grid.iter().map(|(x, t)| (*x, cut(t[0])));
-    let above = grid.iter().rev().map(|(x, t)| (*x, cut(t[2])));
-    let band = Polygon::new(below.chain(above).collect::<Vec<_>>(), GREY.mix(0.35));
-    panel.draw_series("interval of the growth", [band])?;
-    let line: Vec<_> = grid.iter().map(|(x, t)| (*x, t[1])).collect();
-    let stroke = Stroke::dashed(GREY, LINE, SHORT);
-    panel.outside(Outside::Cut).curve("what chaos allows", &line, stroke)
+    Ok(sheet.finish("Speed against accuracy of a mean", description))
 }

@@ -1,124 +1,100 @@
-//! Draws Fig. S8: the difference of a mean by each method from that of the engine, with its
-//! interval; methods are sorted by the time that they take.
+//! Draws Fig. S8: in how many cases of each scene each method and each program fails, and how.
 
 use super::prelude::*;
-use crate::experiments::accuracy::tables::{Compared, compared};
-use crate::experiments::{BIAS, MEASURED, Results};
-use crate::params::{Means, MethodName::Certified, Setting};
-use impact_numerics::statistics::Estimate;
+use crate::experiments::accuracy::case::Outcome::{self, *};
+use crate::experiments::accuracy::trials::{Trial, right};
+use crate::experiments::{PROGRAMS, Results, TRIALS};
 
-/// The differences in the panels, in per cent.
-const RANGE: f64 = 60.0;
+/// How cases end that are not right, from the bottom of a tile upwards.
+const FAILURES: [(&str, RGBColor, &[Outcome]); 3] = [
+    ("missed", RED, &[Missed]),
+    ("late, ghost, or wrong speed", ORANGE, &[Late, Ghost, WrongSpeed, WrongRest]),
+    ("announced", GREY, &[GaveUp, Refused, Warned]),
+];
 
-/// From one row to the next.
-const ROW: i32 = 275;
+const TOP: i32 = 1850;
+const ROW: i32 = 600;
+const HEIGHT: i32 = 230;
 
-/// The width of a decimal with its point.
-const DECIMAL: i32 = 170;
+/// A method or a program: its name, and for each of its settings the trial in each scene.
+type Group<'a> = (&'a str, Vec<Vec<&'a Trial>>);
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
-    let (biases, measured) = (results.of(&BIAS)?, results.of(&MEASURED)?);
-    let rows = compared(biases);
-    let means = &biases.parameters.means;
-    let height = |of: &Means| of.settings.len() as i32 * ROW;
-    let sheet = Sheet::new(means.iter().map(|of| height(of) + 480).sum::<i32>() as u32 + 1500);
-    let mut top = 1000;
-    for (i, of) in means.iter().enumerate() {
-        let chains = &of.chains;
-        let time = |setting| {
-            measured.thousand(measured.method(setting, chains.chain.masses, chains.sigma)?)
-        };
-        let mut found = Vec::new();
-        for row in rows.iter().filter(|row| row.sigma == chains.sigma && row.share.is_some()) {
-            found.extend(time(row.setting).map(|time| (time, row)));
+    let trials = results.of(&TRIALS)?;
+    let scenes = &trials.parameters.scenes;
+    let own = trials.parameters.settings.iter().enumerate().map(|(place, setting)| {
+        let found = trials.trials.iter().map(|found| &found[place]);
+        (setting.method.title(), found.collect::<Vec<_>>())
+    });
+    let others = results.of(&PROGRAMS)?.iter().flat_map(|program| &program.settings);
+    let others = others.map(|run| (&*run.name, scenes.iter().map(|s| run.trial(s)).collect()));
+    let mut groups: Vec<Group> = Vec::new();
+    for (name, trials) in own.chain(others) {
+        match groups.last_mut().filter(|group| group.0 == name) {
+            Some(group) => group.1.push(trials),
+            None => groups.push((name, vec![trials])),
         }
-        found.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let frame = Frame::new(2450, top, 5350, top + height(of));
-        top += height(of) + 480;
-        let engine = Setting { method: Certified, value: 0.0, stop: 0.0 };
-        let panel = rows_of(&sheet, frame, &found, time(engine), i + 1 == means.len())?;
-        panel.heading(LETTERS[i], &format!("*σ* = {}, *T* = {}", chains.sigma, of.transient))?;
     }
-    let style = words(SMALL, INK, HPos::Right, VPos::Bottom);
-    let heads =
-        [("difference (%)", 7250, 350), ("± 95 % half-width", 7250, 650), ("time (s)", 8250, 650)];
-    for (name, right, base) in heads {
-        sheet.area.draw_text(name, &style, (right, base))?;
+    let methods = trials.parameters.settings.chunk_by(|a, b| a.method == b.method).count();
+    let count = scenes.len() as i32;
+    let sheet = Sheet::new((TOP + ROW * count + 700) as u32);
+    let frame = Frame::new(150, TOP, 8350, TOP + ROW * count);
+    let x = Axis::linear(0.0, 1.0, 1.0, 1, "").column("scene (1)").without_numbers();
+    let y = Axis::linear(0.5, f64::from(count) + 0.5, 1.0, 1, "").column("share right (1)");
+    let panel = sheet.panel(frame, x, y.without_numbers())?;
+    let name = words(SMALL, INK, HPos::Left, VPos::Top);
+    for (row, scene) in (0..).zip(scenes) {
+        sheet.area.draw_text(&scene.title, &name, (frame.left + 90, TOP + ROW * row + 60))?;
+    }
+    let settings: usize = groups.iter().map(|group| group.1.len()).sum();
+    let width = (frame.right - frame.left - 330 - 90 * groups.len() as i32) / settings as i32;
+    let mut left = frame.left + 90;
+    let head = words(SMALL, INK, HPos::Left, VPos::Center).transform(FontTransform::Rotate270);
+    for (i, (name, settings)) in groups.iter().enumerate() {
+        let middle = left + width * settings.len() as i32 / 2;
+        sheet.area.draw_text(name, &head, (middle, TOP - 100))?;
+        for (place, trials) in settings.iter().enumerate() {
+            let share = |trial: &Trial| right(trial) as f64 / trial.len() as f64;
+            let shares = (1..).map(f64::from).zip(trials.iter().map(|trial| share(trial)));
+            panel.record(&format!("{name}, {}", place + 1), shares);
+            for (row, trial) in (0..).zip(trials) {
+                tile(&sheet, (left, TOP + ROW * row + 310), width, trial)?;
+            }
+            left += width;
+        }
+        // What is not of this program stands apart.
+        left += if i + 1 == methods { 330 } else { 90 };
+    }
+    let key = words(SMALL, INK, HPos::Left, VPos::Center);
+    let y = frame.bottom + 330;
+    let all_right = ("right", GREEN, &[Right][..]);
+    for ((name, _, outcomes), x) in [all_right].iter().chain(&FAILURES).zip([240, 1420, 2850, 6430])
+    {
+        tile(&sheet, (x, y), width, &vec![outcomes[0]])?;
+        sheet.area.draw_text(name, &key, (x + width + 90, y + HEIGHT / 2))?;
     }
     let description = describe!(
-        "Difference of the mean number of impacting gaps from the engine's, with 95 % intervals, at {} σ; rows are methods with a step or \
-         tolerance, by rising time. {} of {} differences are clear (discs).",
-        means.len(),
-        rows.iter().filter(|row| row.is_clear()).count(),
-        rows.len(),
+        "A row for each of {count} scenes, with a tile for each setting of {} methods and programs, filled as far as its cases fail. The \
+         engine, at the left, is right in all cases of {} scenes.",
+        groups.len(),
+        trials.trials.iter().filter(|found| right(&found[0]) == found[0].len()).count(),
     );
-    Ok(sheet.finish("Error of a mean, by method", description))
+    Ok(sheet.finish("Where methods and programs fail", description))
 }
 
-/// Draws a row for the engine, if its time is known, and one for each method below it. Returns the
-/// panel, whose data are times and differences.
-fn rows_of(
-    sheet: &Sheet,
-    frame: Frame,
-    found: &[(f64, &Compared)],
-    engine: Option<f64>,
-    is_last: bool,
-) -> Result<Panel, Error> {
-    let x = Axis::linear(-RANGE, RANGE, 20.0, 2, "difference from the engine’s mean (%)");
-    let x = x.column("time of one core for a thousand chains (s)");
-    let x = if is_last { x } else { x.without_numbers() };
-    let y = Axis::linear(-0.6 - found.len() as f64, 0.6, 1.0, 1, "");
-    let mut y = y.column("error of the mean (%)");
-    y.ticks = vec![Tick { at: 0.0, label: Some("engine".into()) }];
-    for setting in found.iter().map(|row| row.1.setting) {
-        let name = format!("{}, {}", setting.method.title(), in_powers(setting.value));
-        y.ticks.insert(0, Tick { at: -(y.ticks.len() as f64), label: Some(name) });
-    }
-    // A background for every second row.
-    let height = f64::from(frame.bottom - frame.top) / (found.len() as f64 + 1.2);
-    for row in (1..=found.len()).step_by(2) {
-        let upper = frame.top + (height * (row as f64 + 0.1)) as i32;
-        let ground = [(60, upper), (8340, upper + height as i32)];
-        sheet.area.draw(&Rectangle::new(ground, PALE.mix(0.3).filled()))?;
-    }
-    let panel = sheet.panel(frame, x, y)?;
-    panel.guide("engine", &[(0.0, panel.y.lo), (0.0, 0.0)], Stroke::solid(RED, THIN))?;
-    let disc = (Symbol::Disc, LARGE + 12, Stroke::solid(RED, THIN));
-    panel.unrecorded().markers("engine", &[(0.0, 0.0)], disc)?;
-    let style = words(SMALL, INK, HPos::Right, VPos::Center);
-    let decimals = |value: f64| usize::from(value < 9.95);
-    // Writes a number so that its units digit ends at a place.
-    let write = |before: &str, value: f64, decimals: usize, units: i32, row: f64| {
-        let at = (units + decimals as i32 * DECIMAL, panel.area.map_coordinate(&(0.0, row)).1);
-        sheet.area.draw_text(&(before.to_owned() + &number(value, decimals)), &style, at)
-    };
-    if let Some(time) = engine {
-        write("", time, decimals(time), 8000, 0.0)?;
-    }
-    for (row, (time, compared)) in (1..).map(|i| -f64::from(i)).zip(found) {
-        let Some(share) = compared.share else { continue };
-        let interval = share.interval.map(|end| 100.0 * end);
-        let (value, error) = (100.0 * share.value, 100.0 * share.error);
-        let name = compared.setting.name();
-        panel.record(&name, [(*time, Estimate { value, error, interval })]);
-        let is_clear = compared.is_clear();
-        let stroke = Stroke::solid(INK, if is_clear { LINE } else { HAIR });
-        panel.guide(&name, &interval.map(|end| (end, row)), stroke)?;
-        let symbol = if is_clear { Symbol::Disc } else { Symbol::Ring };
-        if value.abs() < RANGE {
-            let mark = (symbol, MEDIUM, Stroke::solid(INK, THIN));
-            panel.unrecorded().markers("difference", &[(value, row)], mark)?;
+/// Draws a tile, filled from below by each kind of failure as far as its share of the cases.
+fn tile(sheet: &Sheet, (left, top): (i32, i32), width: i32, trial: &Trial) -> Drawn {
+    let right = left + width - 22;
+    let all = [(left, top), (right, top + HEIGHT)];
+    sheet.area.draw(&Rectangle::new(all, GREEN.mix(0.3).filled()))?;
+    let mut failed = 0;
+    for (_, colour, outcomes) in FAILURES {
+        let base = top + HEIGHT - HEIGHT * failed as i32 / trial.len() as i32;
+        failed += trial.iter().filter(|outcome| outcomes.contains(outcome)).count();
+        let upper = top + HEIGHT - HEIGHT * failed as i32 / trial.len() as i32;
+        if upper < base {
+            sheet.area.draw(&Rectangle::new([(left, upper), (right, base)], colour.filled()))?;
         }
-        for end in interval.into_iter().filter(|end| end.abs() > RANGE) {
-            let ends = [0.85, 1.0].map(|share| (share * RANGE * end.signum(), row));
-            panel.area.draw(&arrow(ends.to_vec(), stroke))?;
-        }
-        let half = interval[1] - value;
-        write("", value, decimals(half), 6300, row)?;
-        // A space is half as wide as a digit.
-        let before = ["± ", "±   "][decimals(half)];
-        write(before, half, decimals(half), 7000, row)?;
-        write("", *time, decimals(*time), 8000, row)?;
     }
-    Ok(panel)
+    Ok(())
 }

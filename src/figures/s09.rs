@@ -1,50 +1,67 @@
-//! Draws Fig. S9: the cost of an impact against the number of masses, counted and measured.
+//! Draws Fig. S9: error and misses of the next impact against measured time, for every method.
 
 use super::prelude::*;
-use super::rivals::{self, FINEST, Place, by_method};
-use crate::experiments::{MEASURED, Results, SCALE};
-use crate::params::{MethodName::*, Setting};
+use super::rivals::{self, FINEST, Place, by_method, over_engine};
+use crate::experiments::accuracy::race::{DISPLACED, Entry};
+use crate::experiments::{MEASURED, RACE, Results};
+use crate::params::MethodName::*;
 
-/// Where names stand in both panels.
-const NAMES: [Place; 6] = [
-    (Certified, FINEST, (0, -2)),
-    (Sampled, FINEST, (0, -2)),
-    (Advancement, FINEST, (6, 1)),
-    (RungeKutta, FINEST, (-1, -1)),
-    (MoreauJean, FINEST, (6, -4)),
-    (Verlet, FINEST, (6, -1)),
+/// Where the names stand in the upper panel.
+const NAMES: [Place; 4] = [
+    (Certified, FINEST, (-2, 0)),
+    (Sampled, FINEST, (2, 0)),
+    (Advancement, 0, (-2, 0)),
+    (RungeKutta, FINEST, (2, 0)),
+];
+
+/// Where they stand in the lower panel.
+const MISSED: [Place; 5] = [
+    (Advancement, 0, (2, 0)),
+    (RungeKutta, FINEST, (1, -2)),
+    (MoreauJean, 2, (2, 0)),
+    (Verlet, 0, (0, 2)),
+    (Penalty, FINEST, (-1, -2)),
 ];
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
-    let (scale, measured) = (results.of(&SCALE)?, results.of(&MEASURED)?);
-    let sheet = Sheet::new(7850);
-    // Somewhat wider than the sizes, which would stand on the other axis.
-    let masses = || Axis::decades(0, 5, 1, "number of masses *n*").between(7.0, 1.4e4);
-    let y = Axis::decades_around(scale.iter().map(|row| row.2), 1, "evaluations per impact");
-    let counted =
-        sheet.lettered("(a)", Frame::new(1200, 430, 8250, 3330), masses().without_numbers(), y)?;
-    let all = by_method(scale, |row| Some((row.0, (row.1 as f64, row.2, None))));
-    rivals::draw(&counted, &all, &NAMES)?;
+    let (race, measured) = (results.of(&RACE)?, results.of(&MEASURED)?);
+    let time_axis = || rivals::time_axis(900.0);
+    let sheet = Sheet::new(8300);
+    let error = Axis::decades(-18, 0, 3, "error in time (1/*ω*)");
+    let error = error.column("error of the next impact's time (1/omega)");
+    let (upper, x) = (Frame::new(1300, 430, 8250, 4330), time_axis().without_numbers());
+    let errors = sheet.lettered("(a)", upper, x, error)?.outside(Outside::Edge);
+    errors.level("counts as missed", DISPLACED, Stroke::dashed(GREY, HAIR, SHORT))?;
+    errors.label("missed above", (errors.x.hi, DISPLACED), (-1, -1), INK)?;
 
-    // The same chains and settings, on one thread.
-    let timed = |row: &(Setting, usize, f64)| {
-        let time = measured.size(row.0, row.1)?.microseconds_per_impact?;
-        Some((row.0, (row.1 as f64, time, None)))
-    };
-    let times: Vec<_> = scale.iter().filter_map(timed).collect();
-    let y = Axis::decades_around(times.iter().map(|at| at.1.1), 1, "µs per impact");
-    let (x, y) = (masses(), y.column("time per impact (us)"));
-    let clock = sheet.lettered("(b)", Frame::new(1200, 4050, 8250, 6950), x, y)?;
-    rivals::draw(&clock, &by_method(scale, timed), &NAMES)?;
-    let most = scale.iter().rfind(|row| row.0.method == Certified);
-    let counted = most.map(|(_, n, work)| format!("{} at n = {n}", short(*work, 2)));
-    let longest = times.iter().rfind(|at| at.0.method == Certified);
-    let timed = longest.map(|(_, (n, time, _))| format!("{} at n = {n}", short(*time, 2)));
+    let tried = race.entries.iter().map(|e| e.tried).max().unwrap_or(1);
+    let bottom = -(pxfm::f_log10(tried as f64).ceil() as i32) - 1;
+    let mut axis = Axis::decades(bottom, 0, 1, "share missed");
+    // Below one in all that were tried there is nothing but zero.
+    axis.ticks.retain(|tick| tick.at <= axis.lo || tick.at >= 9.5 * axis.lo);
+    if let Some(first) = axis.ticks.first_mut() {
+        first.label = Some("none".into());
+    }
+    let misses = Frame::new(1300, 4950, 8250, 7250);
+    let misses = sheet.lettered("(b)", misses, time_axis(), axis)?.outside(Outside::Edge);
+    misses.level("a break", 7.0 * misses.y.lo, Stroke::dashed(GREY, HAIR, SHORT))?;
+    let time = |e: &Entry| over_engine(race, measured, e.setting);
+    let median = |e: &Entry| Some((e.setting, (time(e)?, e.errors?[0], e.errors)));
+    let share = |e: &Entry| e.misses as f64 / e.tried.max(1) as f64;
+    let missed = |e: &Entry| Some((e.setting, (time(e)?, share(e), None)));
+    rivals::key(&errors, 110.0, [1e-5, 3e-7, 1e-8])?;
+    rivals::draw(&errors, &by_method(&race.entries, median), &NAMES)?;
+    rivals::better(&errors, (0.7, 1e-10), (0.35, 1e-13))?;
+    rivals::draw(&misses, &by_method(&race.entries, missed), &MISSED)?;
+    let certified = race.entries.iter().find(|e| e.setting.method == Certified);
+    let largest = certified.and_then(|entry| Some(entry.errors?[1]));
     let description = describe!(
-        "Cost against the number of masses n, all axes logarithmic. (a) Evaluations per impact: this engine lowest and nearly level, \
-         {}; Runge–Kutta grows with n. (b) Microseconds per impact, of this engine {}.",
-        counted.unwrap_or("none".into()),
-        timed.unwrap_or("none".into()),
+        "Against measured time over the engine's, a mark for each method and step or tolerance, n = {}, σ = {}: (a) median error of the time of the next \
+         impact, with a line up to the largest, which for the engine is {}; (b) the share of states from which the \
+         next impact is missed.",
+        race.parameters.growth.chain.masses,
+        race.parameters.growth.sigma,
+        largest.map_or("unknown".into(), |error| short(error, 2)),
     );
-    Ok(sheet.finish("Cost of an impact against n", description))
+    Ok(sheet.finish("Error and misses of the next impact", description))
 }

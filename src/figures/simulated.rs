@@ -1,15 +1,10 @@
 //! Gives the figures of the simulations what they share: rows, axes and marks.
 
+use super::encoding::FORCING;
 use super::prelude::*;
+use crate::experiments::Results;
 use crate::experiments::theory::comparison;
-use crate::experiments::{Results, sweep};
 pub use crate::params::printed_threshold;
-
-/// The label of an axis of σ.
-pub const FORCING: &str = "*σ* (*d ω*^{2})";
-
-/// Marks of the simulation.
-pub const CROSSES: Marker = (Symbol::Cross, 56, Stroke::solid(RED, THIN));
 
 /// Bars of intervals, which stay behind the marks.
 pub const INTERVAL: Stroke = Stroke::solid(GREY, 30);
@@ -17,11 +12,6 @@ pub const INTERVAL: Stroke = Stroke::solid(GREY, 30);
 /// Makes the axis of σ around the rise; the data files have all σ.
 pub fn sigma_axis() -> Axis {
     Axis::linear(0.05, 0.25, 0.05, 5, FORCING)
-}
-
-/// An axis for counts of impacts up to `n` and a little above.
-pub fn count_axis(n: usize, label: &str) -> Axis {
-    Axis::linear(0.0, n as f64 * 1.05, 20.0, 2, label)
 }
 
 /// Where the main panel of Figs. 2, 3, 12 and 15 stands.
@@ -35,16 +25,14 @@ pub fn printed(panel: &Panel, from: f64) -> Drawn {
     panel.label(&format!("paper: {printed}"), line[1], (0, -1), INK)
 }
 
-/// Mean over the realisations with an impact against σ. The mean of a single one is drawn, though
-/// it has no error and so no cell.
+/// Mean over the realisations with an impact against σ.
 pub fn means(results: &Results) -> Result<Vec<(f64, f64)>, Error> {
-    let rows = sweep::main(results)?.comparable();
-    Ok(rows.filter_map(|row| Some((row.sigma, row.mean?.value))).collect())
+    Ok(results.table("sweep.rows")?.curve(&[], "sigma", "mean")?)
 }
 
 /// A theory curve up to the largest σ of the main sweep.
 pub fn curve(results: &Results, column: &str) -> Result<Vec<(f64, f64)>, Error> {
-    let end = sweep::main(results)?.first().rows.last().map_or(0.0, |row| row.sigma);
+    let end = largest(&results.table("sweep.rows")?.distinct("sigma")?);
     let mut points = results.table("theory.curve")?.curve(&[], "sigma", column)?;
     points.retain(|(sigma, _)| *sigma <= end);
     Ok(points)

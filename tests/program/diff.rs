@@ -54,7 +54,7 @@ fn changed() -> tempfile::TempDir {
     claim["verdict"] = "differs".into();
     claim["tolerance"] = "± 0.0001 | more".into();
     fs::write(changed("ledger.json"), format!("{ledger:#}\n")).unwrap();
-    edit(&changed("data/fig12.csv"), "\ntheory,0.021,1\n", "\ntheory,0.021,0.75\n");
+    edit(&changed("data/fig12.csv"), "25)\",0.021,1\n", "25)\",0.021,0.75\n");
     fs::remove_file(changed("data/fig07.csv")).unwrap();
     fs::write(changed("data/new.csv"), "a\n1\n").unwrap();
     fs::write(changed("report.html"), "built beside").unwrap();
@@ -74,7 +74,7 @@ fn number_verdict_and_files_are_told_in_each_form() {
         ", +3.00 σ\n  theory.jump.p_jump: 0.01303",
         "; Δ +1.00e-9\n  new: new, a b\n  theory.jump.p_crit: gone, was 0.012210\n",
         "  differs  data/fig12.csv: 1 of ",
-        " lines; the first theory,0.021,1 -> theory,0.021,0.75\n",
+        " lines; the first \"theory, Eq. (25)\",0.021,1 -> \"theory, Eq. (25)\",0.021,0.75\n",
         "  new      data/new.csv\n",
         "  gone     data/fig07.csv\n",
         "  differs  values.json\n",

@@ -47,6 +47,7 @@ fn axes_have_numbers_and_names() {
         let parts: &[&str] = match id.as_str() {
             "fig01" => &["d", "nd", "(n+1)d", "Δ_1(t)"],
             "fig04" => &["L–1", "1–2", "2–3", "3–R"],
+            "s08" => &["engine", "heyoka", "missed"],
             _ => {
                 let ticks =
                     |l: &&Label| l.words.chars().all(|c| c.is_ascii_digit() || "−.^".contains(c));

@@ -108,7 +108,7 @@ fn claims_fail_when_the_results_say_so() {
     ];
     judged(&QUICK.results, &as_found);
     let mut results = QUICK.results_again(ALL);
-    let sweep = &mut results.of_mut(&SWEEP).unwrap()[0];
+    let sweep = &mut results.get_mut(&SWEEP).unwrap()[0];
     let rise = &mut sweep.curves[0].rise;
     rise.half_height.as_mut().unwrap().value += 0.05;
     sweep.ensemble.chain.restitution = 0.7;
@@ -121,12 +121,12 @@ fn claims_fail_when_the_results_say_so() {
     // What is few or many in every window is judged; what the window decides is not.
     let mean = |value| Some(Mean { value, error: Some(0.01), interval: None });
     // A mode that surely jumps in each window, and for the printed digits.
-    for window in &mut results.of_mut(&JUMP).unwrap().windows {
+    for window in &mut results.get_mut(&JUMP).unwrap().windows {
         let sure = |value| Some(Estimate { value, error: 0.001, interval: [value; 2] });
         let passing = &mut window.jump.all_gaps;
         (passing.sigma, passing.peak, passing.clearance) = (sure(0.12), sure(50.0), sure(0.5));
     }
-    let sweep = &mut results.of_mut(&SWEEP).unwrap()[0];
+    let sweep = &mut results.get_mut(&SWEEP).unwrap()[0];
     let rows = &mut sweep.curves[0].rows;
     let row = rows.iter_mut().rfind(|row| row.sigma < 0.0804).unwrap();
     (row.mean, row.mean_all) = (mean(14.0), mean(0.6));
@@ -140,7 +140,7 @@ fn claims_fail_when_the_results_say_so() {
     for ([first, others], expected) in
         [([40.0, 40.0], Differs), ([0.7, 40.0], CannotBeJudged), ([0.7, 0.7], Reproduced)]
     {
-        let windows = &mut results.of_mut(&PROTOCOL).unwrap()[1].curves;
+        let windows = &mut results.get_mut(&PROTOCOL).unwrap()[1].curves;
         for curve in windows.iter_mut() {
             curve.rows[0].mean = mean(others);
             (curve.rows[0].kept, curve.rows[0].ran) = (others as usize, 300);
@@ -165,7 +165,7 @@ fn the_half_height_is_that_of_realisations_with_an_impact() {
         let mut results = QUICK.results_again(ALL);
         for experiment in [&PROTOCOL, &LENGTHS] {
             for curve in
-                results.of_mut(experiment).unwrap().iter_mut().flat_map(|it| &mut it.curves)
+                results.get_mut(experiment).unwrap().iter_mut().flat_map(|it| &mut it.curves)
             {
                 (curve.rise.half_height, curve.rise.half_height_all) =
                     (estimate(half_height), estimate(of_all));
@@ -179,7 +179,7 @@ fn the_half_height_is_that_of_realisations_with_an_impact() {
 #[test]
 fn a_jump_of_the_mean_is_no_slope() {
     let mut results = QUICK.results_again(ALL);
-    for row in &mut results.of_mut(&SWEEP).unwrap()[0].curves[0].rows {
+    for row in &mut results.get_mut(&SWEEP).unwrap()[0].curves[0].rows {
         let value = if row.sigma < 0.12 { 1.0 } else { 100.0 };
         row.mean = Some(Mean { value, error: Some(0.01), interval: None });
     }
@@ -190,12 +190,12 @@ fn a_jump_of_the_mean_is_no_slope() {
 #[test]
 fn the_promise_of_the_engine_follows_the_numbers() {
     let worse: [fn(&mut Results); 4] = [
-        |results| results.of_mut(&RACE).unwrap().entries[0].misses += 1,
-        |results| results.of_mut(&RACE).unwrap().entries[0].units = Some(9.0),
-        |results| results.of_mut(&TRIALS).unwrap().trials[0][0][0] = Missed,
+        |results| results.get_mut(&RACE).unwrap().entries[0].misses += 1,
+        |results| results.get_mut(&RACE).unwrap().entries[0].units = Some(9.0),
+        |results| results.get_mut(&TRIALS).unwrap().trials[0][0][0] = Missed,
         |results| {
             let ours = |m: MethodName| m == MethodName::Certified;
-            let scale = results.of_mut(&SCALE).unwrap();
+            let scale = results.get_mut(&SCALE).unwrap();
             scale.iter_mut().filter(|row| ours(row.0.method)).last().unwrap().2 *= 3.0;
         },
     ];

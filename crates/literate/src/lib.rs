@@ -19,7 +19,7 @@
 //! use literate::table::Table;
 //!
 //! let rows = [(1.0, 0.5), (2.0, 0.25)];
-//! let table = Table::of("halving.rows", &rows, |_| 1)
+//! let table = Table::builder("halving.rows", &rows, |_| 1)
 //!     .key("n", "1", |row| row.0)
 //!     .real("share", "1", 3, "What is left.", |row| row.1)
 //!     .done();

@@ -21,7 +21,7 @@ fn run(_: &(), _: &Progress) -> Result<f64, Error> {
 }
 
 fn tables(sum: &f64) -> Vec<Table> {
-    vec![Table::of("sum.all", &[*sum], |_| 1).real("value", "1", 6, "The sum.", |sum| *sum).done()]
+    vec![Table::builder("sum.all", &[*sum], |_| 1).real("value", "1", 6, "The sum.", |sum| *sum).done()]
 }
 
 const SUM: Experiment<(), f64> =

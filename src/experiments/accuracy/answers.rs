@@ -127,7 +127,7 @@ pub fn tables(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
     let orbits = ORBITS.map(|until| [false, true].map(|is_generic| orbits(is_generic, until)));
     let programs = results.of(&PROGRAMS).ok()?;
     let trials = results.of(&TRIALS).ok()?;
-    let summary = Table::of("answers.all", &[()], |()| cases_at_rest(trials))
+    let summary = Table::builder("answers.all", &[()], |()| cases_at_rest(trials))
         .chosen("share", "1", "share of chains in which an orbit must be right", |()| Some(MOST))
         .chosen("tie", "1", "times that differ by less than this factor tie", |()| Some(TIE))
         .computed_by(origin(tables))
@@ -169,7 +169,7 @@ fn table<'a>(
     let seconds = |answer: Option<&Answer>| answer.map(|answer| answer.seconds);
     const CHEAPEST: &str = "seconds of one core for a thousand chains";
     const LEAD: &str = "time of the engine or its fastest rival over that of the other";
-    Table::of(name, questions, |[own, _]| own.rival().map_or(0, |answer| answer.chains))
+    Table::builder(name, questions, |[own, _]| own.rival().map_or(0, |answer| answer.chains))
         .text_key("id", |[own, _]| own.id.clone())
         .words("question", "what is asked", |[own, _]| own.words.clone())
         .computed_by(origin(tables))

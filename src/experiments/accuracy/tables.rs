@@ -40,7 +40,7 @@ pub fn race(race: &Race) -> Vec<Table> {
 }
 
 fn entries(name: &'static str, entries: &[&Entry]) -> Table {
-    Table::of(name, entries, |entry| entry.runs.len())
+    Table::builder(name, entries, |entry| entry.runs.len())
         .text_key("method", |entry| entry.setting.method.id().into())
         .chosen("setting", TIME, "step or tolerance", |entry| Some(entry.setting.value))
         .computed_by(origin(race::run))
@@ -57,7 +57,7 @@ fn all(race: &Race) -> Table {
     // ln of a displacement over the rounding of one.
     let folds = pxfm::f_log(DISPLACED / (f64::EPSILON / 2.0));
     let (run, growth) = (&race.parameters.growth, race.growth.growth());
-    Table::of("race.all", &[()], |()| race.growth.twins.len())
+    Table::builder("race.all", &[()], |()| race.growth.twins.len())
         .chosen("masses", "1", "masses", |()| Some(run.chain.masses as f64))
         .chosen("sigma", SIGMA, "standard deviation σ", |()| Some(run.sigma))
         .chosen("until", TIME, "the end of the runs", |()| Some(race.parameters.until))
@@ -141,7 +141,7 @@ pub fn compared(biases: &Biases) -> Vec<Compared> {
 
 pub fn bias(biases: &Biases) -> Vec<Table> {
     let rows = compared(biases);
-    let cells = Table::of("bias.cells", &rows, |row| row.pairs)
+    let cells = Table::builder("bias.cells", &rows, |row| row.pairs)
         .text_key("setting", |row| format!("{}-{}", row.setting.method.id(), row.setting.value))
         .key("sigma", SIGMA, |row| row.sigma)
         .computed_by(origin(bias::run))
@@ -154,7 +154,7 @@ pub fn bias(biases: &Biases) -> Vec<Table> {
         (means.chains.sigma, counts, own_error(ours, runs[0].len()))
     });
     let engine: Vec<_> = engine.collect();
-    let means = Table::of("bias.means", &engine, |(_, counts, _)| counts.len())
+    let means = Table::builder("bias.means", &engine, |(_, counts, _)| counts.len())
         .key("sigma", SIGMA, |row| row.0)
         .computed_by(origin(bias::run))
         .real("mean", "1", 3, "mean number of impacting gaps, by the engine", |row| mean(&row.1))
@@ -168,7 +168,7 @@ pub fn bias(biases: &Biases) -> Vec<Table> {
 pub fn scale(scale: &Scale) -> Vec<Table> {
     let methods = scale.chunk_by(|a, b| a.0.method == b.0.method);
     let ends: Vec<_> = methods.map(|rows| (&rows[0], &rows[rows.len() - 1])).collect();
-    let table = Table::of("scale.ends", &ends, |_| 1)
+    let table = Table::builder("scale.ends", &ends, |_| 1)
         .text_key("method", |(few, _)| few.0.method.id().into())
         .chosen("setting", TIME, "step or tolerance", |(few, _)| Some(few.0.value))
         .chosen("small", "1", "fewest masses", |(few, _)| Some(few.1 as f64))

@@ -33,7 +33,7 @@ fn half_heights(lengths: &[&[Pair]]) -> Table {
             pairs.iter().zip(before).map(|(pair, last)| (pair, last, &pairs[pairs.len() - 1])),
         );
     }
-    Table::of("branches.half_heights", &rows, |row| row.0.chains())
+    Table::builder("branches.half_heights", &rows, |row| row.0.chains())
         .key("masses", "1", |row| row.0.masses as f64)
         .key("transient", TIME, |row| row.0.transient)
         .computed_by(origin(Branch::half_height))
@@ -65,7 +65,7 @@ fn fits(lengths: &[&[Pair]]) -> Table {
     let laws = lengths.iter().flat_map(|pairs| LAWS.map(|law| (*pairs, law)));
     let laws: Vec<(&[Pair], Law)> = laws.collect();
     let estimate = |(pairs, law): &(&[Pair], Law), of| law.estimate(pairs, of);
-    Table::of("branches.fits", &laws, |row| row.0[0].chains())
+    Table::builder("branches.fits", &laws, |row| row.0[0].chains())
         .key("masses", "1", |row| row.0[0].masses as f64)
         .text_key("law", |row| row.1.name.into())
         .computed_by(origin(Law::fit))
@@ -86,7 +86,7 @@ fn compared_lengths(lengths: &[&[Pair]]) -> Table {
     if let [short, long] = lengths {
         rows.extend(short.iter().zip(*long));
     }
-    Table::of("branches.lengths", &rows, |(short, long)| short.chains().min(long.chains()))
+    Table::builder("branches.lengths", &rows, |(short, long)| short.chains().min(long.chains()))
         .key("transient", TIME, |(short, _)| short.transient)
         .computed_by(origin(Branch::half_height))
         .estimate("from_rest", SIGMA, LESS, |(short, long)| short.estimate_less(long, FROM_REST))
@@ -114,7 +114,7 @@ fn shares(pairs: &[Pair]) -> Table {
         sigmas.dedup();
         rows.extend(sigmas.into_iter().map(|sigma| (pair, sigma)));
     }
-    Table::of("branches.shares", &rows, |(pair, _)| pair.chains())
+    Table::builder("branches.shares", &rows, |(pair, _)| pair.chains())
         .key("masses", "1", |(pair, _)| pair.masses as f64)
         .key("transient", TIME, |(pair, _)| pair.transient)
         .key("sigma", SIGMA, |(_, sigma)| *sigma)
@@ -132,7 +132,7 @@ fn all(ensembles: &[Chains], pairs: &[Pair]) -> Table {
     let counts = above.flat_map(|one| one.counts.iter().flatten().flatten());
     let silent = counts.filter(|count| **count == Some(0)).count();
     let chains = pairs.iter().map(Pair::chains).min().unwrap_or(0);
-    Table::of("branches.all", &[()], |()| 0)
+    Table::builder("branches.all", &[()], |()| 0)
         .count("chains", "chains of each length on each branch", |()| chains as u64)
         .chosen("hot", SIGMA, "σ of the force at first", |()| heated.map(|hot| hot.sigma))
         .chosen("heating", TIME, "time under that force", |()| heated.map(|hot| hot.time))

@@ -29,7 +29,7 @@ pub fn tables() -> Vec<Table> {
         ("sec9_eq38", circuits::eq38(&census, 1)),
         ("sec9_eq38_in_range", circuits::eq38(&census, 3)),
     ];
-    let cases = Table::of("theory.cases", &rows, |_| 0)
+    let cases = Table::builder("theory.cases", &rows, |_| 0)
         .computed_by(origin(tables))
         .text_key("statement", |(id, _)| (*id).into())
         .count("compared", "cases that were compared", |(_, [compared, _])| *compared)
@@ -42,12 +42,12 @@ pub fn tables() -> Vec<Table> {
         ("sec8_separation", relation::separation()),
         ("sec8_densities", relation::distributions()),
     ];
-    let differences = Table::of("theory.differences", &rows, |_| 0)
+    let differences = Table::builder("theory.differences", &rows, |_| 0)
         .computed_by(origin(tables))
         .text_key("statement", |(id, _)| (*id).into())
         .real("largest", "1", 1, "largest difference", |(_, largest)| *largest)
         .done();
-    let ranges = Table::of("theory.class_ranges", &circuits::class_ranges(&census), |_| 0)
+    let ranges = Table::builder("theory.class_ranges", &circuits::class_ranges(&census), |_| 0)
         .computed_by(origin(circuits::class_ranges))
         .key("equation", "1", |range| range.equation)
         .count("right_from", "the length from which on it is right", |range| {

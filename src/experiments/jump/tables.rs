@@ -23,7 +23,7 @@ fn run(jumps: &Jumps) -> Table {
         jumps.windows.iter().filter(same).count() as u64
     };
     let first = jumps.windows.first();
-    Table::of("jump.run", &[jumps], |_| 0)
+    Table::builder("jump.run", &[jumps], |_| 0)
         .count("chains", "chains of all σ", |_| first.map_or(0, WindowJump::chains))
         .count("sigmas", "values of σ", |_| first.map_or(0, |one| one.histograms.len() as u64))
         .count("windows", "windows", |jumps| jumps.windows.len() as u64)
@@ -47,7 +47,7 @@ const SINGLE: &str = "σ where a single gap is as likely as the peak of the bulk
 const JUMPS: &str = "1 if the mode surely jumps, 0 if it surely climbs";
 
 fn windows(jumps: &Jumps) -> Table {
-    Table::of("jump.windows", &jumps.windows, |_| 0)
+    Table::builder("jump.windows", &jumps.windows, |_| 0)
         .key("transient", TIME, |window| window.protocol.transient)
         .key("window", TIME, |window| window.protocol.window)
         .computed_by(origin(mode_jump))
@@ -69,7 +69,7 @@ fn windows(jumps: &Jumps) -> Table {
 fn ring(jumps: &Jumps) -> Table {
     let (ring, walls) = (&jumps.ring.jump.all_gaps, jumps.window(Protocol::default()));
     let less = || Some(difference(ring.sigma?, walls?.jump.all_gaps.sigma?));
-    Table::of("jump.ring", &[ring], |_| 0)
+    Table::builder("jump.ring", &[ring], |_| 0)
         .count("chains", "chains of all σ", |_| jumps.ring.chains())
         .computed_by(origin(mode_jump))
         .estimate("place", SIGMA, PLACE, |ring| ring.sigma)
@@ -80,7 +80,7 @@ fn ring(jumps: &Jumps) -> Table {
 }
 
 fn widths(jumps: &Jumps) -> Table {
-    Table::of("jump.widths", &jumps.widths, |_| 0)
+    Table::builder("jump.widths", &jumps.widths, |_| 0)
         .key("half_width", "1", |row| row.0 as f64)
         .computed_by(origin(mode_jump))
         .estimate("place", SIGMA, "σ of the jump with our protocol, smoothed so", |row| row.1)
@@ -98,7 +98,7 @@ fn rows(window: &WindowJump) -> Table {
         (_, Some(place)) if sigma > place.value => gaps as f64,
         _ => peak,
     };
-    Table::of("jump.rows", &rows, |((row, _), _)| row.chains as usize)
+    Table::builder("jump.rows", &rows, |((row, _), _)| row.chains as usize)
         .key("sigma", SIGMA, |((row, _), _)| row.sigma)
         .computed_by(origin(mode_jump))
         .estimate(
@@ -142,7 +142,7 @@ fn distributions(window: &WindowJump) -> Table {
         let shares = histogram.iter().enumerate().skip(1);
         rows.extend(shares.map(|(k, count)| (row, k, f64::from(*count) / row.chains)));
     }
-    Table::of("jump.distributions", &rows, |(row, ..)| row.chains as usize)
+    Table::builder("jump.distributions", &rows, |(row, ..)| row.chains as usize)
         .key("sigma", SIGMA, |(row, ..)| row.sigma)
         .key("gaps", "1", |(_, k, _)| *k as f64)
         .computed_by(origin(distributions))

@@ -36,7 +36,7 @@ pub fn tables(nucleation: &Nucleation) -> Vec<Table> {
 }
 
 fn single(gaps: &[Gaps]) -> Table {
-    Table::of("nucleation.gaps", gaps, |_| 0)
+    Table::builder("nucleation.gaps", gaps, |_| 0)
         .key("sigma", SIGMA, |row| row.sigma)
         .real("p", "1", 2, "chance of a gap between masses to close by itself", |row| row.ever.p)
         .real("neighbour", "1", 2, "that if its neighbour does", |row| row.ever.pair / row.ever.p)
@@ -50,7 +50,7 @@ fn shares(lengths: &[usize], curve: &[(f64, Chances)]) -> Table {
     };
     let rows = lengths.iter().flat_map(|masses| curve.iter().map(move |row| (*masses, row)));
     let rows: Vec<(usize, f64, f64)> = rows.map(expected).collect();
-    Table::of("nucleation.shares", &rows, |_| 0)
+    Table::builder("nucleation.shares", &rows, |_| 0)
         .key("masses", "1", |(masses, ..)| *masses as f64)
         .key("sigma", SIGMA, |(_, sigma, _)| *sigma)
         .real("clumps", "1", 3, "expected with clumps", |(.., expected)| *expected)
@@ -65,7 +65,7 @@ fn times(times: &[f64], gaps: &[Gaps]) -> Table {
         within.map(move |(time, within)| (sigma, *time, 1.0 - within.p / p))
     };
     let rows: Vec<(f64, f64, f64)> = gaps.iter().flat_map(at_each).collect();
-    Table::of("nucleation.times", &rows, |_| 0)
+    Table::builder("nucleation.times", &rows, |_| 0)
         .key("sigma", SIGMA, |(sigma, ..)| *sigma)
         .key("time", TIME, |(_, time, _)| *time)
         .real("missing", "1", 2, "share of p that is missing by then", |(.., missing)| *missing)
@@ -74,7 +74,7 @@ fn times(times: &[f64], gaps: &[Gaps]) -> Table {
 
 fn chains_table(rows: &[Chains]) -> Table {
     const FOUND: &str = "share of the chains with an impact by then";
-    Table::of("nucleation.chains", rows, |row| row.ran as usize)
+    Table::builder("nucleation.chains", rows, |row| row.ran as usize)
         .key("masses", "1", |row| row.masses as f64)
         .key("sigma", SIGMA, |row| row.sigma)
         .key("time", TIME, |row| row.time)
@@ -92,7 +92,7 @@ fn all(chains: &[Chains], lengths: &[usize], half: f64) -> Table {
         let off = |row: &Chains| (row.hit as f64 / row.ran as f64 - row.expected).abs();
         rows.map(off).fold(0.0, f64::max)
     };
-    Table::of("nucleation.all", &[()], |()| 0)
+    Table::builder("nucleation.all", &[()], |()| 0)
         .real("half", SIGMA, 4, "σ where half of the chains have such a gap", |()| half)
         .count("shortest", "masses of the shortest chains", |()| shortest as u64)
         .real("off", "1", 1, OFF, |()| off(Chain::default().masses))

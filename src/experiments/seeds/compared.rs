@@ -33,7 +33,7 @@ pub fn tables(results: &Results, computed: &[Table]) -> Option<Vec<Table>> {
     };
     let column = |name| theory.curve(&[], "sigma", name).ok();
     let (simple, rest) = (column("simple")?, column("rest")?);
-    let scores = Table::of("seeds.scores", &cells, |_| map.ensemble.realisations)
+    let scores = Table::builder("seeds.scores", &cells, |_| map.ensemble.realisations)
         .key("transient", TIME, |cell| cell.protocol.transient)
         .estimate("half_height", SIGMA, "", |cell| cell.rise.half_height_all)
         .estimate("deficit", SIGMA, "simulated half height less the predicted one", |cell| {
@@ -51,7 +51,7 @@ pub fn tables(results: &Results, computed: &[Table]) -> Option<Vec<Table>> {
     let transient = table("sweep.run")?.number(&[], "transient").ok()?;
     let swept = find_ensemble(results.of(&SWEEP).ok()?, SWEEP.name).and_then(half_height_all);
     let later = |column| Some(difference(swept?, after(transient, column)?));
-    let compared = Table::of("seeds.compared", &[()], |()| seeds.realisations)
+    let compared = Table::builder("seeds.compared", &[()], |()| seeds.realisations)
         .count("sigmas", "values of σ that seeds and map have", |()| sigmas.len() as u64)
         .estimate("early", SIGMA, "half height of the sweep less this", |()| later("half_height"))
         .estimate("of_clumps", SIGMA, "the same if only clumps are seeds", |()| later("of_clumps"))

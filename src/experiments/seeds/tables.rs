@@ -40,7 +40,7 @@ fn course(parameters: &SeedsParams, rows: &[RunsAtSigma<'_>]) -> Table {
     let (window, transients) = (parameters.window, parameters.transients.iter());
     let rows: Vec<(&RunsAtSigma<'_>, usize)> =
         rows.iter().flat_map(|row| transients.clone().map(move |&from| (row, from))).collect();
-    Table::of("seeds.course", &rows, |(row, _)| row.runs.len())
+    Table::builder("seeds.course", &rows, |(row, _)| row.runs.len())
         .key("sigma", SIGMA, |(row, _)| row.sigma)
         .key("until", TIME, |(_, from)| (from + window) as f64 * parameters.bin)
         .estimate("reached", "1", "gaps hit by then", |(row, from)| row.hit(0, from + window))
@@ -51,7 +51,7 @@ fn course(parameters: &SeedsParams, rows: &[RunsAtSigma<'_>]) -> Table {
 fn advance(parameters: &SeedsParams, rows: &[RunsAtSigma<'_>]) -> Table {
     let rows: Vec<(&RunsAtSigma<'_>, usize)> =
         rows.iter().flat_map(|row| (1..=parameters.bins).map(move |bin| (row, bin))).collect();
-    Table::of("seeds.advance", &rows, |(row, _)| row.runs.len())
+    Table::builder("seeds.advance", &rows, |(row, _)| row.runs.len())
         .key("sigma", SIGMA, |(row, _)| row.sigma)
         .key("time", TIME, |(_, bin)| *bin as f64 * parameters.bin)
         .real("advance", "1", 3, "gaps passed by a front", |(row, bin)| {
@@ -63,7 +63,7 @@ fn advance(parameters: &SeedsParams, rows: &[RunsAtSigma<'_>]) -> Table {
 fn fronts(beat: f64, rows: &[RunsAtSigma<'_>]) -> Table {
     const STANDING: &str = "share of fronts without a step in the second half";
     let share = |row: &RunsAtSigma<'_>, parts| ratio_over_runs(&row.fronts, parts);
-    Table::of("seeds.fronts", rows, |row| row.runs.len())
+    Table::builder("seeds.fronts", rows, |row| row.runs.len())
         .key("sigma", SIGMA, |row| row.sigma)
         .estimate("exponent", "1", "d ln(advance)/d ln t over the last three quarters", |row| {
             jackknife(GROUPS, |left_out| row.sums[left_out.unwrap_or(GROUPS)].exponent())
@@ -82,7 +82,7 @@ fn fronts(beat: f64, rows: &[RunsAtSigma<'_>]) -> Table {
 fn means(parameters: &SeedsParams, predicted: &[Prediction]) -> Table {
     let sigmas = |means| parameters.sigmas.iter().enumerate().map(move |sigma| (means, sigma));
     let rows: Vec<(&Prediction, (usize, &f64))> = predicted.iter().flat_map(sigmas).collect();
-    Table::of("seeds.means", &rows, |_| parameters.realisations)
+    Table::builder("seeds.means", &rows, |_| parameters.realisations)
         .key("transient", TIME, |(means, _)| means.transient as f64 * parameters.bin)
         .key("sigma", SIGMA, |(_, (_, sigma))| **sigma)
         .estimate("grown", "1", "mean count by nucleation and growth", |row| row.0.mean(row.1.0))
@@ -92,7 +92,7 @@ fn means(parameters: &SeedsParams, predicted: &[Prediction]) -> Table {
 /// Makes the table of half heights, if all gaps of a clump are seeds, or only the first.
 fn rise(parameters: &SeedsParams, predicted: &[Prediction]) -> Table {
     let half = |which| move |means: &Prediction| means.half_height(parameters, which);
-    Table::of("seeds.rise", predicted, |_| parameters.realisations)
+    Table::builder("seeds.rise", predicted, |_| parameters.realisations)
         .key("transient", TIME, |means| means.transient as f64 * parameters.bin)
         .estimate("half_height", SIGMA, "σ where that is half of all gaps", half(0))
         .estimate("of_clumps", SIGMA, "the same if only clumps are seeds", half(1))
@@ -100,7 +100,7 @@ fn rise(parameters: &SeedsParams, predicted: &[Prediction]) -> Table {
 }
 
 fn all(parameters: &SeedsParams) -> Table {
-    Table::of("seeds.all", &[parameters], |p| p.realisations)
+    Table::builder("seeds.all", &[parameters], |p| p.realisations)
         .count("realisations", "chains at each σ", |p| p.realisations as u64)
         .count("sigmas", "values of σ", |p| p.sigmas.len() as u64)
         .chosen("until", TIME, "time since the first impact", |p| Some(p.until()))

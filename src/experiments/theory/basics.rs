@@ -11,7 +11,7 @@ pub(crate) fn known<T>(result: Result<T, Error>) -> T {
 
 /// Begins a table with one row.
 pub(crate) fn one_row(name: &'static str, item: Origin) -> Building<'static, ()> {
-    Table::of(name, &[()], |()| 0).computed_by(item)
+    Table::builder(name, &[()], |()| 0).computed_by(item)
 }
 
 /// Adds numbers from first to last, so that the sum has the same bits on every machine.

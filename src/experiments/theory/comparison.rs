@@ -68,7 +68,7 @@ pub fn tables(results: &Results, computed: &[Table]) -> Option<Vec<Table>> {
     let of_all = increases(&means_by(|row| row.mean_all), finest);
     let half = sweep.first().rise.half_height.zip(relation.number(&[], "sigma_half").ok());
     let half_gap = half.map(|(half, theory)| theory - half.value);
-    let table = Table::of("sweep.against_theory", &[()], |()| 0)
+    let table = Table::builder("sweep.against_theory", &[()], |()| 0)
         .computed_by(origin(largest_distance))
         .chosen("large_sigma", SIGMA, "from here on σ is called large", |()| Some(LARGE_SIGMA))
         .real("large_distance", "1", 2, "largest distance of both means at large σ", |()| far(0))

@@ -55,7 +55,7 @@ pub(super) fn classes() -> Table {
     const FIRST_ORDER: &str = "weight of one doubled vertex, to first order in p";
     let share = |p: &f64| sum(law(FiveClasses, *p).contribution(&CLASSES[0]));
     let difference = |p: &f64| law(FiveClasses, *p).mean() - law(Simple, *p).mean();
-    Table::of("theory.classes", &REMARK_P, |_| 0)
+    Table::builder("theory.classes", &REMARK_P, |_| 0)
         .computed_by(origin(contributions))
         .key("p", "1", |p| *p)
         .real("simple", "1", 2, "share of simple circuits", share)

@@ -1,4 +1,4 @@
-//! Computes the theory for many vertices, with p N held fixed as N grows: Fig. S5.
+//! Computes the theory for many vertices, with p N held fixed as N grows: Fig. S6.
 
 use super::basics::known;
 use crate::experiments::prelude::*;
@@ -17,7 +17,7 @@ fn drawn() -> Vec<f64> {
 pub(super) fn large() -> Table {
     let jump = |vertices| (vertices as f64, known(p_jump(Simple, vertices)));
     let jumps: Vec<(f64, Jump)> = LARGE_VERTICES.into_par_iter().map(jump).collect();
-    Table::of("theory.large", &jumps, |_| 0)
+    Table::builder("theory.large", &jumps, |_| 0)
         .computed_by(origin(p_jump))
         .key("n", "1", |(n, _)| *n)
         .real("vertices", "1", 1, "N", |(n, _)| *n)

@@ -21,7 +21,7 @@ pub fn k_star(p: f64) -> usize {
 }
 
 pub(super) fn distributions() -> Table {
-    Table::of("theory.distribution", &DISTRIBUTION_P, |_| 0)
+    Table::builder("theory.distribution", &DISTRIBUTION_P, |_| 0)
         .computed_by(origin(Law::mean))
         .key("p", "1", |p| *p)
         .real("mean", "1", 3, "μ", |p| law(Simple, *p).mean())

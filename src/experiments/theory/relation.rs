@@ -52,7 +52,7 @@ pub(super) fn curve() -> Table {
         [sigma, p, rest, simple, higher, from_rest]
     };
     let rows: Vec<[f64; 6]> = sigmas.values().into_par_iter().map(row).collect();
-    Table::of("theory.curve", &rows, |_| 0)
+    Table::builder("theory.curve", &rows, |_| 0)
         .key("sigma", SIGMA, |row| row[0])
         .computed_by(origin(ImpactProbability::p))
         .real("p", "1", 3, "Eq. (25)", |row| row[1])
@@ -137,7 +137,7 @@ pub(super) fn gaps() -> Table {
     let mut sigmas = profiles.map(|profile| params::sweep(profile)[0].sigmas.clone()).concat();
     sigmas.sort_by(f64::total_cmp);
     sigmas.dedup();
-    Table::of("theory.gap", &sigmas, |_| 0)
+    Table::builder("theory.gap", &sigmas, |_| 0)
         .key("sigma", SIGMA, |sigma| *sigma)
         .computed_by(origin(ImpactProbability::p))
         .real("p", "1", 3, "Eq. (25)", |sigma| p_of(*sigma))

@@ -68,7 +68,7 @@ fn tables(cascade: &[Orbit]) -> Vec<Table> {
     // The first orbits have no step or distance before theirs, and so no ratio.
     let delta = |orbit: &Orbit| Some(before(orbit)?.step? / orbit.step?);
     let alpha = |orbit: &Orbit| Some(-before(orbit)?.distance? / orbit.distance?);
-    let orbits = Table::of("cascade.orbits", cascade, |_| 1)
+    let orbits = Table::builder("cascade.orbits", cascade, |_| 1)
         .key("n", "1", |orbit| orbit.n)
         .real("parameter", "1", 10, "The parameter $R_n$.", |orbit| orbit.parameter)
         .real("delta", "1", 8, "Ratio of neighbouring steps.", delta)
@@ -77,7 +77,7 @@ fn tables(cascade: &[Orbit]) -> Vec<Table> {
     let last = cascade.last().into_iter().cloned().collect::<Vec<_>>();
     // The steps that are left are a geometric series.
     let onset = |orbit: &Orbit| Some(orbit.parameter + orbit.step? / (delta(orbit)? - 1.0));
-    let limit = Table::of("cascade.limit", &last, |_| 1)
+    let limit = Table::builder("cascade.limit", &last, |_| 1)
         .chosen("n", "1", "The last orbit.", |orbit| orbit.n)
         .real("delta", "1", 8, "Its ratio of steps.", delta)
         .real("alpha", "1", 9, "Its ratio of distances.", alpha)

@@ -214,7 +214,7 @@ mod tests {
 
     fn results() -> Results {
         let mean = |x: &f64| Some(Estimate { value: *x, error: 0.002, interval: [0.0; 2] });
-        let table = Table::of("toy.all", &[0.1152], |_| 9).real("rise", "1", 6, "A.", |x| *x);
+        let table = Table::builder("toy.all", &[0.1152], |_| 9).real("rise", "1", 6, "A.", |x| *x);
         let table = table.estimate("mean", "1", "A mean.", mean).real("none", "1", 2, "", |_| None);
         Results::made_up(vec![table.done()])
     }
@@ -275,7 +275,8 @@ mod tests {
     fn shares_equal_values_and_few_are_not_certain() {
         use crate::sample::{Sampled, average, share};
         let judge = |sampled: Option<Sampled>, judge: fn(&Evidence<'_>) -> Judged| {
-            let table = Table::of("toy.all", &[()], |()| 9).estimate("mean", "1", "", |()| sampled);
+            let table =
+                Table::builder("toy.all", &[()], |()| 9).estimate("mean", "1", "", |()| sampled);
             let published = Published::parse(PUBLISHED).unwrap();
             let results = Results::made_up(vec![table.done()]);
             let rule = [Rule::new("rise", judge).statistical()];

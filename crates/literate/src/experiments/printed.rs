@@ -143,7 +143,7 @@ impl PrintedTable {
     /// The table `experiment.name` that it is, once it has no fault.
     pub(super) fn table(&self, experiment: &str, name: &str, line: &'static str) -> Table {
         let name = leaked(&format!("{experiment}.{name}"));
-        let mut table = Table::of(name, &self.rows, |_| 0).computed_by(Origin::of(line));
+        let mut table = Table::builder(name, &self.rows, |_| 0).computed_by(Origin::of(line));
         for (at, name) in self.names().enumerate() {
             let estimate = name.strip_suffix("_error").and_then(|other| self.place(other));
             if estimate.is_none() {

@@ -80,7 +80,7 @@ impl Results {
     }
 
     /// Returns the result of an experiment for a test to change; tables are made anew.
-    pub fn of_mut<P, T: Json, U>(&mut self, experiment: &Experiment<P, T, U>) -> Option<&mut T> {
+    pub fn get_mut<P, T: Json, U>(&mut self, experiment: &Experiment<P, T, U>) -> Option<&mut T> {
         self.tables = OnceLock::new();
         let (_, result) = self.results.iter_mut().find(|(one, _)| one.name() == experiment.name)?;
         Arc::get_mut(result)?.downcast_mut()

@@ -35,5 +35,5 @@ pub mod prelude {
     pub use crate::describe;
     pub use plotters::element::{EmptyElement, PathElement, Polygon, Rectangle, Text};
     pub use plotters::style::text_anchor::{HPos, VPos};
-    pub use plotters::style::{Color, RGBColor};
+    pub use plotters::style::{Color, FontTransform, RGBColor};
 }

@@ -249,7 +249,7 @@ impl Panel {
     }
 
     /// Names something as [`Panel::label`] does, at this offset or at the nearest one where the
-    /// name is in the way of no line and no words drawn so far; leaves it out if there is none.
+    /// name is in the way of no line and no words drawn so far; at this one if there is none.
     pub fn label_nearby(
         &self,
         text: &str,
@@ -263,10 +263,8 @@ impl Panel {
         let point = self.area.map_coordinate(&at);
         let size = (font::width(text, SMALL)?, SMALL * font::CAP_HEIGHT / font::EM);
         let mut offsets = std::iter::once(offset).chain(farther);
-        match offsets.find(|&offset| self.has_room(point, size, offset)) {
-            Some(offset) => self.label(text, at, offset, colour),
-            None => Ok(()),
-        }
+        let free = offsets.find(|&offset| self.has_room(point, size, offset));
+        self.label(text, at, free.unwrap_or(offset), colour)
     }
 
     /// Tells whether words of a size have room at an offset from a point of the sheet.

@@ -46,8 +46,11 @@ pub fn assemble(input: &Input<'_>) -> Result<Files, Error> {
     let tables = tables.par_iter().map(|table| data(&DataFile::from_table(table)));
     let figure = |figure: &Figure| files_of(figure, input.edition.license);
     let figures = input.figures.par_iter().flat_map_iter(figure);
-    let (read_parts, mut files): (_, Files) =
-        rayon::join(read_parts, || tables.chain(figures).collect());
+    let data_and_figures = || tables.chain(figures).collect::<Files>();
+    let check_code = || coded::check(input, &declared);
+    let (read_parts, (mut files, hard_coded)) =
+        rayon::join(read_parts, || rayon::join(data_and_figures, check_code));
+    all_in_order(hard_coded)?;
     let (parts, labels) = read_parts?;
     let cover = input.edition.cover.and_then(|cover| input.figure(cover));
     let style = input.templates.text("report.css")?;
@@ -78,7 +81,6 @@ fn fill(input: &Input<'_>) -> Result<(Registry, Filler, Vec<Filled>), Error> {
         input.claims.iter().cloned().partition(|claim| claim.kind.is_printed());
     values.extend(scorecard(&printed))?;
     let mut filler = Filler::new(input.templates, &values)?;
-    all_in_order(coded::check(input, &filler.declared))?;
     for (name, checks) in [("claims", printed), ("relations", relations)] {
         filler.insert(name, &checks.iter().map(to_row).collect::<Vec<_>>());
     }

@@ -224,7 +224,12 @@ fn enclosed(inner: &str, [sign, tag]: [&str; 2], next: Option<&Inline>, markdown
         both && (inner.is_alphanumeric() || !outer.is_alphanumeric())
     };
     let before = markdown.chars().next_back().unwrap_or(' ');
-    if fits(first, before) && fits(last, next) {
+    // Stars between letters would begin and end emphasis there.
+    let splits_word = words.match_indices('*').any(|(i, _)| {
+        let [left, right] = [words[..i].trim_end_matches('*'), words[i..].trim_start_matches('*')];
+        left.ends_with(char::is_alphanumeric) && right.starts_with(char::is_alphanumeric)
+    });
+    if fits(first, before) && fits(last, next) && !splits_word {
         markdown.push_str(&format!("{sign}{words}{sign}"));
     } else {
         markdown.push_str(&format!("<{tag}>{words}</{tag}>"));

@@ -19,7 +19,7 @@ pub struct Building<'a, R> {
 impl Table {
     /// Begins a table `experiment.what` with one row for each of `rows`, of `number` realisations.
     #[track_caller]
-    pub fn of<'a, R>(
+    pub fn builder<'a, R>(
         name: &'static str,
         rows: &'a [R],
         number: impl Fn(&R) -> usize + 'a,

@@ -274,7 +274,7 @@ mod tests {
             (0.8, 0.1, vec![3.0, 5.0]),
             (0.8, 0.3, vec![7.0, 8.0]),
         ];
-        Table::of("test.rise", &rows, |row| row.2.len())
+        Table::builder("test.rise", &rows, |row| row.2.len())
             .key("r", "1", |row| row.0)
             .key("sigma", "d omega^2", |row| row.1)
             .estimate("mean", "1", "the mean", mean)
@@ -340,8 +340,9 @@ mod tests {
 
     #[test]
     fn a_wrong_table_says_what_is_wrong_and_where() {
-        let one =
-            |rows: &'static [f64]| Table::of("test.bad", rows, |_| 1).key("r", "1", |row| *row);
+        let one = |rows: &'static [f64]| {
+            Table::builder("test.bad", rows, |_| 1).key("r", "1", |row| *row)
+        };
         let twice = one(&[1.0, 1.0]).done();
         let columns = one(&[1.0]).chosen("x", "1", "", |_| 1.0).count("x", "", |_| 2).done();
         let late = one(&[1.0]).chosen("x", "1", "", |_| 1.0).key("s", "1", |row| *row).done();
@@ -367,7 +368,7 @@ mod tests {
     #[test]
     fn neighbouring_integers_beyond_doubles_are_two_keys() {
         let seeds = [9_007_199_254_740_992_u64, 9_007_199_254_740_993, u64::MAX];
-        let table = Table::of("test.seeds", &seeds, |_| 1).key("seed", "1", |seed| *seed);
+        let table = Table::builder("test.seeds", &seeds, |_| 1).key("seed", "1", |seed| *seed);
         let table = table.chosen("same", "1", "", |seed| *seed).done();
         assert_eq!(table.fault, None);
         let odd = table.cell("test.seeds[seed=9007199254740993].same").unwrap();

@@ -48,7 +48,7 @@ fn good_prose_passes() {
         ~~~~\n12\n```\n~~~~~  \n\n> ```\n> 12\n> ```\n\n\
         $$\n\\begin{aligned} a &= b \\\\\n&+ c \\end{aligned}\n$$\n\n«v.empty | otherwise(words=\"nothing\")», «v.count | otherwise(words=\"nothing\")»\n\n| a |\n|---|\n| «v.empty» |\n\n12) item and [linked][a].\n\n[a]: https://x.org\n\n<# 12 #><% if raw.half_height > 12 %>12<% endif %>\
         <% for row in keys.toy.none.rows %><% if raw.toy.none[row].x > 1 %>a<% endif %><% endfor %>";
-    let none = Table::of("toy.none", &[0.5; 0], |_| 0).key("x", "1", |x| *x).done();
+    let none = Table::builder("toy.none", &[0.5; 0], |_| 0).key("x", "1", |x| *x).done();
     let prose = format!("{PROSE}\n\n{good}\n");
     let report = Given { table: Some(none), ..given(&prose) }.made().unwrap();
     let markdown = file(&report, "report.md");

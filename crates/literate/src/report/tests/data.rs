@@ -21,6 +21,7 @@ a*W*b => aWb
 **W** *W* W => W W W
 **a *W* b**, => a W b,
 *aW* **Wb** => aW Wb
+_a*W*b_ _a**W**b_ => aWb aWb
 `W` => W
 a`W`W => aWW
 `aWb` => aWb
@@ -80,7 +81,7 @@ fn as_github_reads(markdown: &str) -> Option<String> {
 
 fn with_words(words: &[String], prose: &str) -> Result<Files, Error> {
     let rows: Vec<(usize, &String)> = words.iter().enumerate().collect();
-    let table = Table::of("toy.words", &rows, |_| 1).key("n", "1", |(n, _)| *n as f64);
+    let table = Table::builder("toy.words", &rows, |_| 1).key("n", "1", |(n, _)| *n as f64);
     let table = table.text_key("name", |(_, word)| word.to_string());
     let table = table.words("word", "", |(_, word)| word.to_string()).done();
     Given { table: Some(table), ..given(&format!("{PROSE}\n\n{prose}")) }.made()
