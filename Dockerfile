@@ -6,7 +6,8 @@ FROM rust:1.95.0-slim-trixie
 RUN apt-get update \
     && apt-get install -y --no-install-recommends git make python3 \
     && rm -rf /var/lib/apt/lists/* \
-    && useradd --create-home reader
+    && useradd --create-home reader \
+    && install --directory --owner reader --group reader /home/reader/impact-paper
 USER reader
 WORKDIR /home/reader/impact-paper
 COPY --chown=reader . .

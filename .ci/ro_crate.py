@@ -4,13 +4,18 @@ that made the report."""
 import json
 import re
 
-TITLE = "Impact dynamics of large dimensional systems, reproduced"
+TITLE = "Impact dynamics of large dimensional systems: a reproducible edition"
 KINDS = {
     "csv": "text/csv",
     "json": "application/json",
     "md": "text/markdown",
     "svg": "image/svg+xml",
     "tex": "application/x-tex",
+}
+COMPLETED = "http://schema.org/CompletedActionStatus"
+SCHEMAS = {
+    "crates/literate/schemas/values.json": "JSON Schema of all numbers of a report.",
+    "crates/literate/schemas/ledger.json": "JSON Schema of statements, figures and equations of a report.",
 }
 LICENCES = {
     "MIT": ("MIT License", "Code, or the next at your option: LICENSE-MIT."),
@@ -49,6 +54,7 @@ def crate(root, owner):
         "datePublished": cited["date-released"],
         "license": to(*map(spdx, LICENCES)),
         "author": to(*(person["@id"] for person in people)),
+        "publisher": to(*(person["@id"] for person in people)),
         "hasPart": to("paper/", "scenes/", "templates/", "src/", "crates/", "Cargo.lock"),
         "mentions": to("#make-paper"),
     }
@@ -85,7 +91,7 @@ def crate(root, owner):
             "name": "make paper",
             "description": f"All experiments with the profile {shown('profile')} and the seed"
             f" {shown('sweep.run.seed')}; the same bytes on every machine, so no time is given.",
-            "actionStatus": {"@id": "http://schema.org/CompletedActionStatus"},
+            "actionStatus": {"@id": COMPLETED},
             "instrument": to("#impact-paper"),
             "object": to("src/", "crates/", "templates/", "scenes/", "Cargo.lock"),
             "result": to("paper/"),
@@ -95,6 +101,7 @@ def crate(root, owner):
             "@type": "SoftwareApplication",
             "name": "impact-paper",
             "version": shown("v.version") if "v.version" in values else cited["version"],
+            "url": owner.repository or "README.md",
             "softwareRequirements": to("#rust"),
         },
         {
@@ -104,6 +111,14 @@ def crate(root, owner):
             "version": compiler,
             "url": "https://www.rust-lang.org",
         },
+        {
+            "@id": COMPLETED,
+            "@type": "ActionStatusType",
+            "name": "Completed",
+            "description": "The run came to its end.",
+        },
+        *({"@id": name, "@type": ["CreativeWork", "Profile"], "name": f"Schema of {name.rsplit('/', 1)[-1]}",
+           "description": words} for name, words in SCHEMAS.items()),
         *({"@id": spdx(key), "@type": "CreativeWork", "name": name, "description": words}
           for key, (name, words) in LICENCES.items()),
         *people,
@@ -114,8 +129,9 @@ def crate(root, owner):
         kind = KINDS.get(path.rsplit(".", 1)[-1])
         if kind:
             entity["encodingFormat"] = kind
-        if path in ("values.json", "ledger.json"):
-            entity["conformsTo"] = {"@id": f"crates/literate/schemas/{path}"}
+        schema = f"crates/literate/schemas/{path}"
+        if schema in SCHEMAS:
+            entity["conformsTo"] = {"@id": schema}
         graph.append(entity | {"sha256": digest})
     context = '"@context": "https://w3id.org/ro/crate/1.2/context"'
     lines = ",\n".join("    " + json.dumps(entity, ensure_ascii=False) for entity in graph)

@@ -75,9 +75,22 @@ class Crate(unittest.TestCase):
         program = self.entities[run["instrument"][0]["@id"]]
         compiler = self.entities[program["softwareRequirements"][0]["@id"]]
         self.assertEqual(compiler["version"], toml("rust-toolchain.toml")["toolchain"]["channel"])
+        for software in (program, compiler):
+            for key in ("name", "url", "version"):
+                self.assertTrue(software[key], key)
+        described = [run["actionStatus"], self.entities["./"]["publisher"]]
+        described += [e["conformsTo"] for e in self.entities.values() if e["@type"] == "File" and "conformsTo" in e]
+        self.assertEqual(set(ids(described)) - self.entities.keys(), set())
 
 
 class Files(unittest.TestCase):
+    def test_one_title(self):
+        title = text("templates/edition/00-abstract.md").splitlines()[0].removeprefix("# ")
+        crate = {entity["@id"]: entity for entity in json.loads(text("ro-crate-metadata.json"))["@graph"]}
+        self.assertEqual(crate["./"]["name"], title)
+        for path, times in [("CITATION.cff", 2), ("codecheck.yml", 1)]:
+            self.assertEqual(text(path).count(f'title: "{title}"\n'), times, path)
+
     def test_one_version_and_one_day(self):
         workspace = toml("Cargo.toml")["workspace"]["package"]
         citation, meta = text("CITATION.cff"), json.loads(text("codemeta.json"))
@@ -140,8 +153,8 @@ class Files(unittest.TestCase):
         for command in ("make paper", "make test"):
             self.assertIn(command, text("README.md"))
 
-    def test_the_four_ways_in(self):
-        block = re.search(r"## Four ways in\n\n```sh\n(.*?)```", text("README.md"), re.S)[1]
+    def test_the_five_ways_in(self):
+        block = re.search(r"## Five ways in\n\n```sh\n(.*?)```", text("README.md"), re.S)[1]
         commands = [line.split("#")[0].strip() for line in block.splitlines()]
         self.assertEqual(len(commands), 5)
         for command in commands:

@@ -76,6 +76,7 @@ class Filled(unittest.TestCase):
             *("CITATION.cff", "codemeta.json", "codecheck.yml", "ro-crate-metadata.json"),
             *("README.md", "REPRODUCTION.md", "SECURITY.md", "CODE_OF_CONDUCT.md"),
             *("Cargo.toml", "benches/Cargo.toml", "src/lib.rs"),
+            *("crates/python/README.md", ".github/ISSUE_TEMPLATE/config.yml"),
         }
         self.assertEqual(changed, expected | packages | wheels)
 
@@ -145,11 +146,28 @@ class Filled(unittest.TestCase):
         readme = self.text("README.md")
         self.assertIn(f" DOI: [{DOI}](https://doi.org/{DOI}).", readme)
         self.assertIn(f"<{REPOSITORY}/issues>. By Ada Example, Zoë O'Neill.\n", readme)
+        # PyPI resolves no links within a repository.
+        links = re.findall(r"\]\((\S+)\)", self.text("crates/python/README.md"))
+        self.assertTrue(links)
+        for link in links:
+            folder, path = link.split("/blob/main/")
+            self.assertEqual(folder, REPOSITORY)
+            self.assertTrue((ROOT / path).is_file(), link)
+        # GitHub refuses mail addresses there.
+        way = self.text(".github/ISSUE_TEMPLATE/config.yml")
+        self.assertIn(f'    url: "{REPOSITORY}/blob/main/SECURITY.md"\n', way)
 
     def test_check_names_what_is_missing(self):
         told = run(self.folder, "--check")
-        self.assertEqual(told.stderr, "owner.toml: empty: the ORCID of O'Neill\n")
-        self.assertEqual(told.returncode, 1)
+        self.assertEqual((told.returncode, told.stderr), (0, ""))
+        self.assertRegex(told.stdout, r"^owner\.toml: no ORCID: Zoë O'Neill; .*\n$")
+        try:
+            self.owner.write_text(EXAMPLE.replace(DOI, ""), encoding="utf-8")
+            told = run(self.folder, "--check")
+            self.assertIn("owner.toml: empty: doi\n", told.stderr)
+            self.assertEqual(told.returncode, 1)
+        finally:
+            self.owner.write_text(EXAMPLE, encoding="utf-8")
 
     def test_twice_is_once_and_emptied_is_as_before(self):
         again = run(self.folder)
@@ -175,7 +193,9 @@ class Filled(unittest.TestCase):
             for field, wrong, told in [
                 ('"0000-0002-1825-0097"', '"0000-0002-1825-0098"', "is no ORCID"),
                 (f'"{REPOSITORY}"', f'"{REPOSITORY}/"', "without a slash"),
+                (f'"{REPOSITORY}"', f'"{REPOSITORY}.git"', "or .git"),
                 (f'"{DOI}"', f'"https://doi.org/{DOI}"', "without https://doi.org/"),
+                (f'"{DOI}"', '"10.5281/ZENODO.FIXME"', "as 10.5281/zenodo.1234567"),
                 ('"safety@example.org"', '"ask around"', "a mail address"),
                 ('family = "Example"', 'name = "Example"', "has no family name"),
                 ("repository", "repo", "repo is unknown"),

@@ -128,7 +128,17 @@ fn every_page_says_how_to_cite_it() {
         let entry = words(cite);
         let here = QUICK.paper.edition.documents.iter().find(|of| of.page == name).unwrap();
         assert!(entry.contains(&format!("@misc{{impactpaper2026{},", here.prose)), "{entry}");
-        assert!(entry.contains("author = {{The impact-paper authors}},"), "{entry}");
+        let authors: Vec<_> =
+            QUICK.paper.edition.authors.iter().map(|(author, _)| *author).collect();
+        assert!(authors.iter().all(|author| entry.contains(author)), "{entry}");
+        // What Google Scholar reads: a line for each author.
+        let metas = elements(&page, "meta");
+        let contents = |name: &str| -> Vec<_> {
+            let named = metas.iter().filter(|node| node.attribute("name") == Some(name));
+            named.filter_map(|node| node.attribute("content")).collect()
+        };
+        assert_eq!(contents("citation_title"), [title.as_str()]);
+        assert_eq!(contents("citation_author"), authors);
         assert!(entry.contains(&format!("title  = {{{title}}}")), "{name}: {entry}");
         assert!(entry.contains(concat!("impact-paper ", env!("CARGO_PKG_VERSION"))), "{entry}");
     }

@@ -99,3 +99,15 @@ impl Document {
         templates.iter().map(|(path, _)| path).filter(is_prose).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Edition;
+
+    #[test]
+    fn a_group_keeps_its_last_word_from_being_a_family() {
+        let authors = vec![("The impact-paper authors", ""), ("Ada Example", "Somewhere")];
+        let edition = Edition { authors, ..Edition::new("A title") };
+        assert_eq!(edition.bibtex_authors(), "{The impact-paper authors} and Ada Example");
+    }
+}
