@@ -2,7 +2,7 @@
 
 use crate::experiments::ensembles::find_ensemble;
 use crate::experiments::rise::{Mean, RisePoint};
-use crate::experiments::{JUMP, PROTOCOL, REPLAY, Results, Session, sweep};
+use crate::experiments::{MODE_JUMP, PROTOCOL, REPLAY, Results, Session, sweep};
 use impact_numerics::statistics::count_quantile;
 use literate::{Failure, input};
 use serde_json::json;
@@ -29,7 +29,7 @@ pub fn lab(session: &Session<'_>, results: &Results) -> Result<Option<String>, F
 
 /// Returns the file, of the module in WebAssembly, results and the script.
 pub fn script(module: &[u8], results: &Results, script: &str) -> Result<String, Failure> {
-    let (replays, sweep) = (results.of(&REPLAY)?, sweep::main(results)?);
+    let (replays, sweep) = (results.of(&REPLAY)?, sweep::main_sweep(results)?);
     let runs = replays.parameters.iter().zip(&replays.results);
     let runs: Vec<_> = runs
         .map(|((name, request), result)| json!({ "name": name, "asked": request, "found": result }))
@@ -41,13 +41,13 @@ pub fn script(module: &[u8], results: &Results, script: &str) -> Result<String, 
         (row.sigma, rounded(row.mean_all), rounded(row.mean), low, high)
     };
     let rows: Vec<_> = sweep.comparable().map(row).collect();
-    let (gaps, half) = (sweep.ensemble.chain.gaps(), sweep.first().rise.half_height);
+    let (gaps, half) = (sweep.ensemble.chain.gaps(), sweep.first_curve().rise.half_height);
     let map = find_ensemble(results.of(&PROTOCOL)?, PROTOCOL.name);
     let protocols = map.iter().flat_map(|map| &map.curves).map(|curve| {
         let rows: Vec<_> = curve.rows.iter().map(row).collect();
         json!({ "protocol": curve.protocol, "half": curve.rise.half_height, "rows": rows })
     });
-    let jumps = results.of(&JUMP)?.windows.iter().map(|window| {
+    let jumps = results.of(&MODE_JUMP)?.windows.iter().map(|window| {
         let passing = &window.jump.all_gaps;
         json!({ "protocol": window.protocol, "sigma": passing.sigma, "jumps": passing.is_jump() })
     });

@@ -4,7 +4,7 @@ use super::shared::*;
 use crate::experiments::rise::{Curve, Rise, RisePoint};
 use crate::experiments::sweep::{self, mode_half};
 use crate::experiments::theory::comparison::LARGE_SIGMA;
-use crate::experiments::{JUMP, LENGTHS, TWO_MASSES};
+use crate::experiments::{LENGTHS, MODE_JUMP, TWO_MASSES};
 use crate::params::{Chain, NEAR_SIMULTANEOUS, Protocol, SLOW};
 use impact_chain::mode_jump::Passing;
 use impact_numerics::estimates::with_error;
@@ -37,7 +37,7 @@ pub fn rules() -> Vec<Rule> {
 }
 
 fn parameters(e: &Evidence<'_>) -> Judged {
-    let chain = &sweep::main(e.results)?.ensemble.chain;
+    let chain = &sweep::main_sweep(e.results)?.ensemble.chain;
     let (n, d, omega, r) =
         (chain.masses, chain.spacing, chain.natural_frequency, chain.restitution);
     let square = chain.forcing_frequency * chain.forcing_frequency;
@@ -51,7 +51,7 @@ fn parameters(e: &Evidence<'_>) -> Judged {
 /// (0.67, so that 0.08 is one).
 pub(super) fn small_force<'a>(e: &Evidence<'a>) -> Result<&'a RisePoint, Error> {
     let threshold = e.published.statement("sec2_half_height")?.number()?;
-    let rows = &sweep::main(e.results)?.first().rows;
+    let rows = &sweep::main_sweep(e.results)?.first_curve().rows;
     rows.iter().rev().find(|row| row.sigma < 0.67 * threshold).ok_or(Undecided)
 }
 
@@ -112,7 +112,7 @@ fn jump(e: &Evidence<'_>) -> Judged {
 
 /// Returns where the mode passes to all gaps in each window that begins late enough.
 fn passings<'a>(e: &Evidence<'a>) -> Result<Vec<(Protocol, &'a Passing)>, Error> {
-    let windows = e.results.of(&JUMP)?.windows.iter();
+    let windows = e.results.of(&MODE_JUMP)?.windows.iter();
     let passing = windows.map(|window| (window.protocol, &window.jump.all_gaps));
     Ok(passing.filter(|(protocol, _)| protocol.transient >= RELEASED).collect())
 }
@@ -136,7 +136,7 @@ fn mode_jump(e: &Evidence<'_>) -> Judged {
     let outcomes: Vec<_> = passings.map(|(_, passing)| passing.is_jump()).collect();
     let [jumps, climbs] =
         [true, false].map(|sure| outcomes.iter().filter(|jump| **jump == Some(sure)).count());
-    let run = e.results.of(&JUMP)?;
+    let run = e.results.of(&MODE_JUMP)?;
     let single = run.windows.iter().filter(|w| w.jump.single_gap.is_jump() == Some(true)).count();
     let [windows, sure, no] = e.numbers("jump.run", ["windows", "jumps", "climbs"])?;
     let (all, tenth, released) = (outcomes.len(), gaps / 10.0, RELEASED);

@@ -60,7 +60,7 @@ fn no_impact(e: &Evidence<'_>) -> Judged {
     let random = ensemble(e.results.of(&STARTS)?, "random")?;
     let [mut above, mut overlaps, mut chains, mut expected] = [0.0; 4];
     let mut shares_of_bound = Vec::new();
-    for (row, counted) in random.runs.iter().zip(&random.first().rows) {
+    for (row, counted) in random.runs.iter().zip(&random.first_curve().rows) {
         let (ran, begun) = (row.realisations - row.failed, counted.kept + row.rejected);
         let bound = e.number(&format!("theory.gap[sigma={}].any_random", row.sigma));
         let interval = wilson(begun as u64, ran as u64, 1.0 - e.level()?.each);
@@ -188,7 +188,7 @@ fn threshold_shift(e: &Evidence<'_>) -> Judged {
 
 fn mean_is_easier(e: &Evidence<'_>) -> Judged {
     let [low, high] = e.numbers("sweep.rise", ["onset", "half_height_all"])?;
-    let rows = sweep::main(e.results)?.first().rows.iter();
+    let rows = sweep::main_sweep(e.results)?.first_curve().rows.iter();
     let rows = rows.filter(|row| low <= row.sigma && row.sigma <= high);
     // Width of the mode's bootstrap interval over that of the mean.
     let ratio = |row: &RisePoint| {
@@ -213,7 +213,7 @@ fn restitution_omitted(e: &Evidence<'_>) -> Judged {
     let moved = range(halves.iter().map(|(_, half)| Some(*half))).ok_or(Undecided)?;
     let map = ensemble(e.results.of(&PROTOCOL)?, "protocol")?;
     let share_after = |curve: &Curve| {
-        let rest = map.curve(curve.protocol.transient, curve.protocol.window)?;
+        let rest = map.find_curve(curve.protocol.transient, curve.protocol.window)?;
         let [rest, random] = [rest.rise.half_height?, curve.rise.half_height?];
         Some(share_of_start(rest, random, theory).value)
     };

@@ -30,7 +30,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
         let message = format!("{option}: only the method certified has states; leave it out");
         return Err(Failure::input(message));
     }
-    if matches!(args.at, Some(Times::Period)) && args.until.is_none() {
+    if matches!(args.at, Some(Times::OncePerPeriod)) && args.until.is_none() {
         return Err(Failure::input("--at: period has no end; give --until"));
     }
     if args.save.as_deref() == Some(Path::new("-")) {

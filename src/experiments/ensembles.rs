@@ -48,18 +48,18 @@ pub struct RunTotals {
 
 impl Counted {
     /// Returns the curve of a window, or `None` if it was not counted.
-    pub fn curve(&self, transient: f64, window: f64) -> Option<&Curve> {
+    pub fn find_curve(&self, transient: f64, window: f64) -> Option<&Curve> {
         self.curves.iter().find(|curve| curve.protocol == Protocol { transient, window })
     }
 
     /// Returns the curve of the first window.
-    pub fn first(&self) -> &Curve {
+    pub fn first_curve(&self) -> &Curve {
         &self.curves[0]
     }
 
     /// Lists the rows of the first window with few overlapping starts.
     pub fn comparable(&self) -> impl Iterator<Item = &RisePoint> {
-        let both = self.first().rows.iter().zip(&self.runs);
+        let both = self.first_curve().rows.iter().zip(&self.runs);
         let few = both.filter(|(row, runs)| self.ensemble.is_comparable(row.sigma, runs.rejected));
         few.map(|(row, _)| row)
     }

@@ -28,5 +28,5 @@ pub const ANY_IMPACT: &str = "σ where half of the realisations have an impact";
 
 /// Returns the half height of the mean of all realisations in the first window.
 pub fn half_height_all(counted: &Counted) -> Option<Estimate> {
-    counted.first().rise.half_height_all
+    counted.first_curve().rise.half_height_all
 }

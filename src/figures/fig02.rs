@@ -4,11 +4,11 @@
 use super::encoding::{MODE, gaps_axis};
 use super::prelude::*;
 use super::simulated::*;
-use crate::experiments::{JUMP, Results};
+use crate::experiments::{MODE_JUMP, Results};
 use crate::params::Protocol;
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
-    let jumps = results.of(&JUMP)?;
+    let jumps = results.of(&MODE_JUMP)?;
     let n = jumps.gaps();
     let row = format!(
         "jump.windows[transient={},window={}]",

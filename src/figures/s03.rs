@@ -13,7 +13,7 @@ const SIGMAS: (f64, f64) = (0.055, 0.165);
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let table = |name| results.table(name);
     let (missing, shares) = (table("nucleation.times")?, table("nucleation.shares")?);
-    let masses = sweep::main(results)?.ensemble.chain.masses;
+    let masses = sweep::main_sweep(results)?.ensemble.chain.masses;
     let sheet = Sheet::new(8600);
     chains(&sheet, table("nucleation.chains")?, shares, table("sweep.rows")?, masses)?;
     times(&sheet, missing)?;

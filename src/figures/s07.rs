@@ -34,7 +34,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let point = |row: &&Compared| {
             let share = row.share?;
             let interval = share.interval.map(|end| 100.0 * end);
-            Some((row.setting, (time(row.setting)?, 100.0 * share.value, Some(interval))))
+            let (setting, x) = (row.setting, time(row.setting)?);
+            Some(rivals::Point { setting, x, y: 100.0 * share.value, interval: Some(interval) })
         };
         rivals::draw(&panel, &rivals::all_by_method(&own, point), &[])?;
         let engine = Setting { method: MethodName::Certified, value: 0.0, stop: 0.0 };

@@ -243,7 +243,7 @@ impl Job {
         let period = TAU / frequency;
         let times: Box<dyn Iterator<Item = f64>> = match times {
             Times::Values(times) => Box::new(times.iter().copied()),
-            Times::Period => {
+            Times::OncePerPeriod => {
                 let multiples = (from / period) as u64..;
                 Box::new(multiples.map(|k| k as f64 * period).skip_while(|time| *time < from))
             }

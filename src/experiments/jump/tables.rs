@@ -5,7 +5,7 @@ use crate::experiments::prelude::*;
 use crate::params::Protocol;
 use impact_chain::mode_jump::{Passing, mode_jump};
 
-pub fn tables(jumps: &Jumps) -> Vec<Table> {
+pub fn make(jumps: &Jumps) -> Vec<Table> {
     vec![run(jumps), windows(jumps), ring(jumps), widths(jumps)]
         .into_iter()
         .chain(

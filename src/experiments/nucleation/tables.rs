@@ -14,7 +14,7 @@ struct Chains {
     expected: f64,
 }
 
-pub fn tables(nucleation: &Nucleation) -> Vec<Table> {
+pub fn make(nucleation: &Nucleation) -> Vec<Table> {
     let (parameters, gaps) = (&nucleation.parameters, &nucleation.gaps);
     let mut chains = Vec::new();
     for ((runs, firsts), gaps) in parameters.runs().zip(&nucleation.rows).zip(gaps.iter().cycle()) {

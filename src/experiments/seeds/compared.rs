@@ -20,7 +20,7 @@ pub fn tables(results: &Results, computed: &[Table]) -> Option<Vec<Table>> {
     let map = find_ensemble(results.of(&PROTOCOL).ok()?, "protocol")?;
     let window = seeds.window as f64 * seeds.bin;
     let transients = rise.distinct("transient").ok()?.into_iter();
-    let cells: Vec<&Curve> = transients.filter_map(|time| map.curve(time, window)).collect();
+    let cells: Vec<&Curve> = transients.filter_map(|time| map.find_curve(time, window)).collect();
     let everywhere = |sigma: &f64| cells.iter().all(|cell| mean(cell, *sigma).is_some());
     let sigmas: Vec<f64> = seeds.sigmas.iter().copied().filter(everywhere).collect();
     let off = |cell: &Curve, predicted: &[(f64, f64)]| {
