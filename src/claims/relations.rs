@@ -75,7 +75,7 @@ fn two_seeds(e: &Evidence<'_>) -> Departures {
     }
     let first = sweep::main_sweep(e.results)?.first_curve();
     let second = ensemble(e.results.of(&SECOND_SEED)?, "sweep")?.first_curve();
-    let estimate = |row: &RisePoint| row.mean.filter(|_| row.kept >= FEWEST)?.estimate();
+    let estimate = |row: &RisePoint| row.mean.filter(|_| row.active >= FEWEST)?.estimate();
     let between = |row: &RisePoint| {
         let same = first.rows.iter().find(|other| other.sigma == row.sigma)?;
         Some(difference(estimate(same)?, estimate(row)?))

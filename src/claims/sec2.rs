@@ -73,7 +73,7 @@ fn few_below(e: &Evidence<'_>) -> Judged {
     let few = means.iter().filter(|mean| mean.value <= limit).count();
     let [first, .., last] = means[..] else { return Err(Undecided) };
     let (all, released) = (means.len(), RELEASED);
-    let RisePoint { sigma, kept, ran, .. } = *row;
+    let RisePoint { sigma, active: kept, ran, .. } = *row;
     e.check(
         by_runs([few, all - few, all]),
         numbers![sigma, here, limit, all, released, few, first, last, kept, ran],
@@ -86,10 +86,10 @@ fn none_below(e: &Evidence<'_>) -> Judged {
     let here = e.estimate(&format!("sweep.rows[sigma={}].kept", row.sigma))?;
     let limit = 1.0 / VERY_FEW;
     let (rows, level) = (small_in_windows(e)?, 1.0 - e.level()?.each);
-    let intervals = rows.iter().filter_map(|row| wilson(row.kept as u64, row.ran as u64, level));
+    let intervals = rows.iter().filter_map(|row| wilson(row.active as u64, row.ran as u64, level));
     let none = intervals.clone().filter(|[_, high]| *high <= limit).count();
     let some = intervals.filter(|[low, _]| *low > limit).count();
-    let shares = rows.iter().map(|row| row.kept as f64 / row.ran as f64);
+    let shares = rows.iter().map(|row| row.active as f64 / row.ran as f64);
     let [least, most] = extremes(shares).ok_or(Undecided)?;
     let random = e.number(&format!("theory.gap[sigma={}].any_random", row.sigma))?;
     let half = e.estimate("sweep.rise.kept_half")?;

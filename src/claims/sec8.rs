@@ -60,8 +60,8 @@ fn no_impact(e: &Evidence<'_>) -> Judged {
     let random = ensemble(e.results.of(&STARTS)?, "random")?;
     let [mut above, mut overlaps, mut chains, mut expected] = [0.0; 4];
     let mut shares_of_bound = Vec::new();
-    for (row, counted) in random.runs.iter().zip(&random.first_curve().rows) {
-        let (ran, begun) = (row.realisations - row.failed, counted.kept + row.rejected);
+    for (row, point) in random.runs.iter().zip(&random.first_curve().rows) {
+        let (ran, begun) = (row.realisations - row.failed, point.active + row.rejected);
         let bound = e.number(&format!("theory.gap[sigma={}].any_random", row.sigma));
         let interval = wilson(begun as u64, ran as u64, 1.0 - e.level()?.each);
         let (Ok(bound), Some([low, _])) = (bound, interval) else { continue };
@@ -229,8 +229,8 @@ fn restitution_omitted(e: &Evidence<'_>) -> Judged {
 fn ensured(e: &Evidence<'_>, pick: fn(&Total) -> u64) -> Judged {
     let restitutions = e.results.table("restitution.curves")?.distinct("r")?;
     let (r, lowest) = (e.published.parameter("restitution")?, restitutions[0]);
-    let counted = e.results.of(&RESTITUTION)?;
-    let chains = |r: f64| counted.iter().find(|chains| chains.ensemble.chain.restitution == r);
+    let ensembles = e.results.of(&RESTITUTION)?;
+    let chains = |r: f64| ensembles.iter().find(|chains| chains.ensemble.chain.restitution == r);
     // Of all impacts at r and σ, or `None` where these were not run.
     let share = |r, sigma| {
         let total = &chains(r)?.runs.iter().find(|row| row.sigma == sigma)?.total;

@@ -74,7 +74,8 @@ pub enum Times {
     Values(Values),
 }
 
-/// Returns a parser of times up to `latest` that rise or stay, as many as memory holds, or of `period`.
+/// Returns a parser of times up to `latest` that rise or stay, as many as memory holds, or of
+/// `period`.
 pub fn times(
     latest: f64,
 ) -> impl Fn(&str) -> Result<Times, String> + Clone + Send + Sync + 'static {

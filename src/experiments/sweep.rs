@@ -21,16 +21,16 @@ pub fn main_sweep(results: &Results) -> Result<&Counted, Error> {
     find_ensemble(results.of(&SWEEP)?, SWEEP.name).ok_or(Error::NotRun(SWEEP.name))
 }
 
-fn tables(counted: &Vec<Counted>) -> Vec<Table> {
-    let Some(sweep) = find_ensemble(counted, SWEEP.name) else { return Vec::new() };
+fn tables(ensembles: &Vec<Counted>) -> Vec<Table> {
+    let Some(sweep) = find_ensemble(ensembles, SWEEP.name) else { return Vec::new() };
     let mut total = Total::default();
     sweep.runs.iter().for_each(|row| total.add(&row.total));
     let [run, rare] = [run(sweep, &total), rare(sweep, &total)];
     vec![run, rows(sweep), rise_table(sweep), modes(sweep), rare, sticking()]
 }
 
-fn of_second_seed(counted: &Vec<Counted>) -> Vec<Table> {
-    let table = Table::builder("second_seed.rise", counted, |sweep| sweep.ensemble.realisations)
+fn of_second_seed(ensembles: &Vec<Counted>) -> Vec<Table> {
+    let table = Table::builder("second_seed.rise", ensembles, |sweep| sweep.ensemble.realisations)
         .count("seed", "master seed", |sweep| sweep.ensemble.seed)
         .computed_by(origin(Curve::new))
         .estimate("half_height", SIGMA, OF_ACTIVE, |sweep| sweep.first_curve().rise.half_height);
@@ -63,14 +63,14 @@ fn run(sweep: &Counted, total: &Total) -> Table {
 
 /// Makes the table of means (of different gaps, of impacts, of masses) and shares at each σ.
 fn rows(sweep: &Counted) -> Table {
-    const KEPT: &str = "share of the realisations with an impact in the window";
-    let kept_share = |row: &RisePoint| share(row.kept as u64, row.ran as u64);
+    const ACTIVE: &str = "share of the realisations with an impact in the window";
+    let active_share = |row: &RisePoint| share(row.active as u64, row.ran as u64);
     Table::builder("sweep.rows", &sweep.first_curve().rows, |row| row.ran)
         .key("sigma", SIGMA, |row| row.sigma)
         .computed_by(origin(RisePoint::new))
-        .estimate("kept", "1", KEPT, kept_share)
+        .estimate("kept", "1", ACTIVE, active_share)
         .estimate("mean_all", "1", "gaps with an impact, mean of all", |r| r.mean_all?.estimate())
-        .over(|row| row.kept)
+        .over(|row| row.active)
         .estimate("mean", "1", "gaps hit, mean of those with any", |row| row.mean?.estimate())
         .estimate("impacts", "1", "impacts, mean of those with any", |row| row.impacts?.estimate())
         .estimate("masses", "1", "masses hit, mean of those with any", |row| row.masses?.estimate())
@@ -86,7 +86,7 @@ fn rise_table(sweep: &Counted) -> Table {
         .real("half_height_to", SIGMA, 4, "upper end of its interval", |_| Some(interval?[1]))
         .estimate("half_height_all", SIGMA, HALF_HEIGHT, |rise| rise.half_height_all)
         .estimate("onset", SIGMA, "σ where it passes a twentieth of all gaps", |rise| rise.onset)
-        .estimate("kept_half", SIGMA, ANY_IMPACT, |rise| rise.kept_half)
+        .estimate("kept_half", SIGMA, HALF_OF_CHAINS, |rise| rise.kept_half)
         .estimate("width", SIGMA, "from a tenth to nine tenths of all gaps", |rise| rise.width)
         .estimate("kept_width", SIGMA, WIDTH_OF_ACTIVE, |rise| rise.kept_width)
         .done()

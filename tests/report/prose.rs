@@ -143,10 +143,10 @@ fn claims_fail_when_the_results_say_so() {
         let windows = &mut results.get_mut(&PROTOCOL).unwrap()[1].curves;
         for curve in windows.iter_mut() {
             curve.rows[0].mean = mean(others);
-            (curve.rows[0].kept, curve.rows[0].ran) = (others as usize, 300);
+            (curve.rows[0].active, curve.rows[0].ran) = (others as usize, 300);
         }
         let row = &mut windows.last_mut().unwrap().rows[0];
-        (row.mean, row.kept) = (mean(first), first as usize);
+        (row.mean, row.active) = (mean(first), first as usize);
         let small = ["sec2_few_below", "sec2_none_below"].map(|id| (id, expected));
         let others = [("printed_threshold", CannotBeJudged), ("sec2_three_way", Differs)];
         let large = [("sec2_mode_jump", Reproduced), ("sec8_large_sigma", Differs)];

@@ -18,7 +18,7 @@ pub fn make(jumps: &Jumps) -> Vec<Table> {
 }
 
 fn run(jumps: &Jumps) -> Table {
-    let counted = |outcome: Option<bool>| {
+    let windows_with = |outcome: Option<bool>| {
         let same = |window: &&WindowJump| window.jump.all_gaps.is_jump() == outcome;
         jumps.windows.iter().filter(same).count() as u64
     };
@@ -29,10 +29,10 @@ fn run(jumps: &Jumps) -> Table {
         .count("windows", "windows", |jumps| jumps.windows.len() as u64)
         .computed_by(origin(Passing::is_jump))
         .count("jumps", "windows in which the mode surely jumps to all gaps", |_| {
-            counted(Some(true))
+            windows_with(Some(true))
         })
-        .count("climbs", "windows in which it surely climbs there", |_| counted(Some(false)))
-        .count("open", "windows in which the sample does not tell", |_| counted(None))
+        .count("climbs", "windows in which it surely climbs there", |_| windows_with(Some(false)))
+        .count("open", "windows in which the sample does not tell", |_| windows_with(None))
         .done()
 }
 
