@@ -1,6 +1,6 @@
 //! Draws Fig. 9: (a) the most likely and (b) the expected number of impacts against p.
 
-use super::encoding::{MODE, THEORY};
+use super::encoding::Look;
 use super::prelude::*;
 use crate::experiments::Results;
 use crate::experiments::theory::law::{means, steps};
@@ -22,7 +22,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     most_likely([p_jump, jump], &mode)?;
     let text = format!("from 1 to {jump} at *p* = {}", short(p_jump, 4));
     mode.label(&text, (p_jump, jump / 2.0), (2, 0), INK)?;
-    expected.curve("mean", &means(), THEORY.line)?;
+    expected.curve("mean", &means(), Look::THEORY.line)?;
     expected.label("*μ* → 1 as *p* → 0", (expected.x.lo, 1.0), (3, -2), INK)?;
 
     let description = describe!(
@@ -42,8 +42,8 @@ fn most_likely([p_jump, jump]: [f64; 2], panel: &Panel) -> Drawn {
         stairs.push((p, k_star as f64));
     }
     stairs.extend(stairs.last().map(|last| (1.0, last.1)));
-    panel.curve("most likely number, 1", &[(panel.x.lo, 1.0), (p_jump, 1.0)], MODE.line)?;
-    panel.curve("most likely number", &stairs, MODE.line)?;
+    panel.curve("most likely number, 1", &[(panel.x.lo, 1.0), (p_jump, 1.0)], Look::MODE.line)?;
+    panel.curve("most likely number", &stairs, Look::MODE.line)?;
     panel.guide("jump", &[(p_jump, 1.0), (p_jump, jump)], Stroke::dashed(PURPLE, THIN, DOTTED))?;
     let look = |mark| (mark, 50, Stroke::solid(PURPLE, THIN));
     panel.markers("before the jump", &[(p_jump, 1.0)], look(Symbol::Disc))?;

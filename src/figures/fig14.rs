@@ -1,6 +1,6 @@
 //! Draws Fig. 14: simple and higher-order distributions become alike as p grows.
 
-use super::encoding::{HIGHER, THEORY};
+use super::encoding::Look;
 use super::prelude::*;
 use crate::experiments::Results;
 use crate::experiments::theory::higher::five;
@@ -20,8 +20,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let head = format!("{} *p* = {p}", LETTERS[i]);
         let panel = sheet.lettered(&head, frame, x, y)?.with_suffix(LETTERS[i]);
         for (name, values, side, stroke) in [
-            ("simple circuits", simple(at), -1, THEORY.line),
-            ("higher orders", five(at), 1, HIGHER.line),
+            ("simple circuits", simple(at), -1, Look::THEORY.line),
+            ("higher orders", five(at), 1, Look::HIGHER.line),
         ] {
             let (points, peak) = (over_k(&values), largest(&values));
             panel.curve(name, &points, stroke)?;

@@ -32,6 +32,7 @@ mod s10;
 mod s11;
 mod simulated;
 
+// And with them the prelude that the figures take as `super::prelude`.
 pub use literate::figures::*;
 
 use crate::experiments::{

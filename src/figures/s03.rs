@@ -1,6 +1,6 @@
 //! Draws Fig. S3: gaps that close by themselves, and chains with one of them.
 
-use super::encoding::{FORCING, SHARE};
+use super::encoding::{Look, SIGMA_LABEL};
 use super::prelude::*;
 use crate::experiments::theory::comparison::interpolate;
 use crate::experiments::{Results, sweep};
@@ -28,12 +28,12 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
 }
 
 fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table, masses: usize) -> Drawn {
-    let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.02, 2, FORCING);
+    let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.02, 2, SIGMA_LABEL);
     let y = Axis::linear(0.0, 1.05, 0.2, 2, "share of chains with an impact");
     let panel = sheet.lettered("(a)", Frame::new(1150, 430, 8150, 3730), x, y)?;
-    let mut kept = sweep.curve(&[], "sigma", "kept")?;
-    kept.retain(|(sigma, _)| *sigma > SIGMAS.0 && *sigma < SIGMAS.1);
-    panel.markers(SHARE.name, &kept, SHARE.mark)?;
+    let mut active = sweep.curve(&[], "sigma", "kept")?;
+    active.retain(|(sigma, _)| *sigma > SIGMAS.0 && *sigma < SIGMAS.1);
+    panel.markers(Look::SHARE.name, &active, Look::SHARE.mark)?;
     let last = found.distinct("time")?.last().copied().unwrap_or_default();
     let lengths = found.distinct("masses")?;
     for (place, &masses) in lengths.iter().enumerate() {
@@ -54,7 +54,7 @@ fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table, masses: u
             colour,
         )?;
     }
-    let Some((sigma, share)) = kept.iter().rfind(|(_, share)| *share < 0.9) else { return Ok(()) };
+    let Some((sigma, share)) = active.iter().rfind(|point| point.1 < 0.9) else { return Ok(()) };
     let leader = [(sigma + 0.001, share - 0.03), (sigma + 0.004, share - 0.1)];
     panel.guide("leader", &leader, Stroke::solid(RED, HAIR))?;
     panel.label(&format!("main sweep, *n* = {masses}"), leader[1], (1, 1), RED)
