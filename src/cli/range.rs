@@ -3,12 +3,13 @@
 use std::ops::RangeInclusive;
 use std::sync::Arc;
 
+/// A parser of one value of the command line.
+pub trait Parse<T>: Fn(&str) -> Result<T, String> + Clone + Send + Sync + 'static {}
+impl<T, F: Fn(&str) -> Result<T, String> + Clone + Send + Sync + 'static> Parse<T> for F {}
+
 /// Returns a parser of numbers from `low` to `high`, both included.
-pub fn number(
-    low: f64,
-    high: f64,
-) -> impl Fn(&str) -> Result<f64, String> + Clone + Send + Sync + 'static {
-    move |text| {
+pub fn number(low: f64, high: f64) -> impl Parse<f64> {
+    move |text: &str| {
         let remedy = || format!("give a number from {low:?} to {high:?}");
         let number = text.trim().parse::<f64>().map_err(|_| remedy())?;
         // A negative zero would be printed as one.
@@ -26,23 +27,15 @@ pub type Values = Arc<[f64]>;
 ///
 /// A range A..B:STEP is A + i·STEP, rounded to the decimals of A and STEP, so that 0.1..0.2:0.02
 /// holds the same double 0.12 as a list does; B belongs to it when it is hit within STEP/1000.
-pub fn numbers(
-    low: f64,
-    high: f64,
-) -> impl Fn(&str) -> Result<Values, String> + Clone + Send + Sync + 'static {
+pub fn numbers(low: f64, high: f64) -> impl Parse<Values> {
     numbers_up_to(MOST_VALUES, low..=high)
 }
 
 /// Returns a parser like that of [`numbers`], for ranges of at most `most` numbers.
-fn numbers_up_to(
-    most: f64,
-    bounds: RangeInclusive<f64>,
-) -> impl Fn(&str) -> Result<Values, String> + Clone + Send + Sync + 'static {
-    move |text| {
-        let number = |text: &str| {
-            number(*bounds.start(), *bounds.end())(text)
-                .map_err(|error| format!("{text:?}: {error}"))
-        };
+fn numbers_up_to(most: f64, bounds: RangeInclusive<f64>) -> impl Parse<Values> {
+    let parser = number(*bounds.start(), *bounds.end());
+    move |text: &str| {
+        let number = |text: &str| parser(text).map_err(|error| format!("{text:?}: {error}"));
         let Some((from, rest)) = text.split_once("..") else {
             return text.split(',').map(number).collect();
         };
@@ -76,10 +69,8 @@ pub enum Times {
 
 /// Returns a parser of times up to `latest` that rise or stay, as many as memory holds, or of
 /// `period`.
-pub fn times(
-    latest: f64,
-) -> impl Fn(&str) -> Result<Times, String> + Clone + Send + Sync + 'static {
-    move |text| {
+pub fn times(latest: f64) -> impl Parse<Times> {
+    move |text: &str| {
         if text == "period" {
             return Ok(Times::OncePerPeriod);
         }

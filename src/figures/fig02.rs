@@ -10,11 +10,8 @@ use crate::params::Protocol;
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let jumps = results.of(&MODE_JUMP)?;
     let n = jumps.gaps();
-    let row = format!(
-        "jump.windows[transient={},window={}]",
-        Protocol::default().transient,
-        Protocol::default().window
-    );
+    let Protocol { transient, window } = Protocol::default();
+    let row = format!("jump.windows[transient={transient},window={window}]");
     let at = |column: &str| results.number(&format!("{row}.{column}")).ok();
     let (place, single) = (at("place"), at("single_place"));
     let sheet = Sheet::new(8550);

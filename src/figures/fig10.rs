@@ -16,12 +16,9 @@ enum Stage {
 
 const STAGES: [Stage; 4] = [Stage::Zero, Stage::Critical, Stage::Between, Stage::Jump];
 
-/// Returns k* after its jump from 1, which is its first step.
-fn k_after_jump() -> usize {
-    steps()[1].1
-}
-
 pub fn draw() -> Result<Figure, Error> {
+    // The first step of k* is its jump from 1.
+    let (_, k_after_jump) = steps()[1];
     let sheet = Sheet::new(850 + 2350 * STAGES.len() as u32);
     // Beyond this k nothing changes sign again.
     let last_zero = stages().into_iter().filter_map(zeros).map(|z| z[1]).fold(20.0, f64::max);
@@ -49,7 +46,7 @@ pub fn draw() -> Result<Figure, Error> {
         let right = sheet.panel(Frame::new(5250, edge, 8250, edge + 1700), k(), y)?;
         let right = right.with_suffix(&format!("{letter}-phi"));
         // At the jump two columns are the highest.
-        let highest = if stage == Stage::Jump { vec![1, k_after_jump()] } else { vec![k_star(p)] };
+        let highest = if stage == Stage::Jump { vec![1, k_after_jump] } else { vec![k_star(p)] };
         draw_distribution(&right, &highest, &columns)?;
         if let (Stage::Zero, Some(&height)) = (stage, columns.first()) {
             // Named once, where all else is low.
@@ -61,7 +58,7 @@ pub fn draw() -> Result<Figure, Error> {
         "Four rows for rising p, N = {N}, over k. Left f, whose sign tells whether the weight Φ grows from k to \
          k + 1; right, Φ divided by its sum. Where f turns positive a second maximum grows; in the last row it equals the first \
          column, and the most likely number jumps from 1 to {}.",
-        k_after_jump()
+        k_after_jump
     );
     Ok(sheet.finish("The mechanism of the jump", description))
 }

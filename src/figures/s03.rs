@@ -36,8 +36,8 @@ fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table, masses: u
     panel.markers(Look::SHARE.name, &active, Look::SHARE.mark)?;
     let last = found.distinct("time")?.last().copied().unwrap_or_default();
     let lengths = found.distinct("masses")?;
-    for (place, &masses) in lengths.iter().enumerate() {
-        let colour = ordered(place, lengths.len());
+    for (i, &masses) in lengths.iter().enumerate() {
+        let colour = ordered(i, lengths.len());
         let (name, keys) = (format!("*n* = {masses}"), [("masses", masses), ("time", last)]);
         let curve = shares.curve(&keys[..1], "sigma", "clumps")?;
         panel.curve(&name, &curve, Stroke::solid(colour, LINE))?;
@@ -46,13 +46,9 @@ fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table, masses: u
         let disc = (Symbol::Disc, LARGE, Stroke::solid(colour, THIN));
         panel.unrecorded().estimates(&name, &marks, disc)?;
         let rising: Vec<_> = curve.into_iter().map(|(sigma, share)| (share, sigma)).collect();
-        let (height, side) = if place == 0 { (0.3, (1, 1)) } else { (0.6, (-3, 0)) };
-        panel.label(
-            &name,
-            (interpolate(&rising, height).unwrap_or(SIGMAS.0), height),
-            side,
-            colour,
-        )?;
+        let (height, side) = if i == 0 { (0.3, (1, 1)) } else { (0.6, (-3, 0)) };
+        let place = (interpolate(&rising, height).unwrap_or(SIGMAS.0), height);
+        panel.label(&name, place, side, colour)?;
     }
     let Some((sigma, share)) = active.iter().rfind(|point| point.1 < 0.9) else { return Ok(()) };
     let leader = [(sigma + 0.001, share - 0.03), (sigma + 0.004, share - 0.1)];

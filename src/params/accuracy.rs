@@ -240,12 +240,10 @@ impl BiasParams {
             let window = if quick { 100.0 } else { Protocol::default().window };
             let mut settings = Vec::new();
             for MethodSettings { method, means, .. } in &METHODS {
-                settings.extend(means.iter().filter(|(_, chains)| chains[i] > 0).map(
-                    |&(value, chains)| {
-                        let chains = if quick { chains[i].min(2) } else { chains[i] };
-                        (Setting { method: *method, value, stop: 0.0 }, chains)
-                    },
-                ));
+                for &(value, chains) in means.iter().filter(|(_, chains)| chains[i] > 0) {
+                    let chains = if quick { chains[i].min(2) } else { chains[i] };
+                    settings.push((Setting { method: *method, value, stop: 0.0 }, chains));
+                }
             }
             let (chain, until, stream) = (Chain::default(), transient + window, "sweep".into());
             let realisations = settings[0].1;

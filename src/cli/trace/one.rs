@@ -308,9 +308,9 @@ fn in_file(name: &str, error: Error) -> Failure {
         Error::Input { ref field, .. } if ["step", "tolerance"].contains(&field.as_str()) => {
             Failure::input(format!("--{error}"))
         }
-        error => Failure::input(format!(
-            "{name}: {}",
-            one_line(&in_plain_words(&error.to_string()), 1000)
-        )),
+        error => {
+            let message = one_line(&in_plain_words(&error.to_string()), 1000);
+            Failure::input(format!("{name}: {message}"))
+        }
     }
 }

@@ -17,18 +17,17 @@ pub struct WorkPoint {
 pub type Scale = Vec<WorkPoint>;
 
 pub fn run(parameters: &ScaleParams, progress: &Progress) -> Result<Scale, Error> {
-    let mut cases = Vec::new();
-    for &setting in &parameters.settings {
-        cases.extend(parameters.masses.iter().map(|n| (setting, *n)));
-    }
     let is_engine = |setting: Setting| setting.method == MethodName::Certified;
     // The simulated time of `benches/peers/measure.rs`, and a short one for rivals.
     let until = |setting: Setting, masses: usize| {
         if is_engine(setting) { (200_000.0 / masses as f64).clamp(10.0, 200.0) } else { 20.0 }
     };
-    cases.retain(|(setting, masses)| {
-        is_engine(*setting) || *masses <= parameters.largest_for_rivals
-    });
+    let mut cases = Vec::new();
+    for &setting in &parameters.settings {
+        let most = if is_engine(setting) { usize::MAX } else { parameters.largest_for_rivals };
+        let masses = parameters.masses.iter().filter(|masses| **masses <= most);
+        cases.extend(masses.map(|masses| (setting, *masses)));
+    }
     let stage = progress.stage("work against size", cases.len() as u64);
     run_each(&stage, progress, cases, |(setting, masses)| {
         let chain = Chain { masses, ..Chain::default() };

@@ -69,8 +69,7 @@ fn join(
     let ring = window_jump(Protocol::default(), &samples_of(&rings, 0), ring_gaps);
     let ours = protocols.iter().position(|protocol| *protocol == Protocol::default());
     let place = |half_width: usize| {
-        let jump = ours
-            .map(|window_index| mode_jump(&samples(window_index), Histogram { gaps, half_width }));
+        let jump = ours.map(|index| mode_jump(&samples(index), Histogram { gaps, half_width }));
         (half_width, jump.and_then(|jump| jump.all_gaps.sigma))
     };
     let widths = HALF_WIDTHS.into_par_iter().map(place).collect();

@@ -6,15 +6,11 @@ use crate::params::Protocol;
 use impact_chain::mode_jump::{Passing, mode_jump};
 
 pub fn make(jumps: &Jumps) -> Vec<Table> {
-    vec![run(jumps), windows(jumps), ring(jumps), widths(jumps)]
-        .into_iter()
-        .chain(
-            jumps
-                .window(Protocol::default())
-                .into_iter()
-                .flat_map(|ours| [rows(ours), distributions(ours)]),
-        )
-        .collect()
+    let mut tables = vec![run(jumps), windows(jumps), ring(jumps), widths(jumps)];
+    if let Some(ours) = jumps.window(Protocol::default()) {
+        tables.extend([rows(ours), distributions(ours)]);
+    }
+    tables
 }
 
 fn run(jumps: &Jumps) -> Table {
@@ -98,21 +94,15 @@ fn rows(window: &WindowJump) -> Table {
         (_, Some(place)) if sigma > place.value => gaps as f64,
         _ => peak,
     };
+    const ONE: &str = "share of chains with one gap, of those with any";
+    const ALL: &str = "share of chains with all gaps, of those with any";
     Table::builder("jump.rows", &rows, |((row, _), _)| row.chains as usize)
         .key("sigma", SIGMA, |((row, _), _)| row.sigma)
         .computed_by(origin(mode_jump))
-        .estimate(
-            "single",
-            "1",
-            "share of chains with one gap, of those with any",
-            |(both, own)| share(u64::from(own[1]), both.0.chains as u64),
-        )
-        .estimate(
-            "all",
-            "1",
-            "share of chains with all gaps, of those with any",
-            |((row, _), _)| share((row.end * row.chains).round() as u64, row.chains as u64),
-        )
+        .estimate("single", "1", ONE, |((row, _), own)| share(own[1].into(), row.chains as u64))
+        .estimate("all", "1", ALL, |((row, _), _)| {
+            share((row.end * row.chains).round() as u64, row.chains as u64)
+        })
         .real("bulk", "1", 3, "share at the peak of the bulk", |((row, _), _)| row.bulk)
         .estimate("peak", "1", "number of gaps at that peak", |((_, peak), _)| **peak)
         .chosen("mode", "1", "most likely number of gaps", |((row, peak), own)| {
