@@ -118,8 +118,7 @@ fn laws_of_chance(e: &Evidence<'_>) -> Departures {
 fn map_meets_sweep(e: &Evidence<'_>) -> Departures {
     let sweep = sweep::main_sweep(e.results)?.first_curve();
     let map = ensemble(e.results.of(&PROTOCOL)?, "protocol")?;
-    let window =
-        map.find_curve(sweep.protocol.transient, sweep.protocol.window).ok_or(Undecided)?;
+    let window = map.find_curve(sweep.protocol).ok_or(Undecided)?;
     let places = |curve: &Curve| {
         let rise = &curve.rise;
         [rise.half_height, rise.half_height_all, rise.onset, rise.kept_half]
@@ -220,9 +219,8 @@ fn engine_as_promised(e: &Evidence<'_>) -> Departures {
     let engine = || scale.clone().filter(|row| row.setting.method == MethodName::Certified);
     let largest = engine().max_by_key(|row| row.masses);
     let hundred = engine().find(|row| row.masses == 100);
-    let work = [largest, hundred].map(|row| row?.evaluations_per_impact);
-    if let [Some(largest), Some(hundred)] = work {
-        departures.push(largest / hundred / 2.0);
+    if let [Some(most), Some(few)] = [largest, hundred].map(|row| row?.evaluations_per_impact) {
+        departures.push(most / few / 2.0);
     }
     Ok(departures)
 }

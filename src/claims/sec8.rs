@@ -213,7 +213,7 @@ fn restitution_omitted(e: &Evidence<'_>) -> Judged {
     let moved = range(halves.iter().map(|(_, half)| Some(*half))).ok_or(Undecided)?;
     let map = ensemble(e.results.of(&PROTOCOL)?, "protocol")?;
     let share_after = |curve: &Curve| {
-        let rest = map.find_curve(curve.protocol.transient, curve.protocol.window)?;
+        let rest = map.find_curve(curve.protocol)?;
         let [rest, random] = [rest.rise.half_height?, curve.rise.half_height?];
         Some(share_of_start(rest, random, theory).value)
     };

@@ -49,8 +49,8 @@ pub struct RunTotals {
 
 impl Counted {
     /// Returns the curve of a window, or `None` if it was not counted.
-    pub fn find_curve(&self, transient: f64, window: f64) -> Option<&Curve> {
-        self.curves.iter().find(|curve| curve.protocol == Protocol { transient, window })
+    pub fn find_curve(&self, protocol: Protocol) -> Option<&Curve> {
+        self.curves.iter().find(|curve| curve.protocol == protocol)
     }
 
     /// Returns the curve of the first window.

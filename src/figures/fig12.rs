@@ -20,8 +20,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     panel.label("simulation", first_point_above(&simulated, 0.3 * n as f64), (-2, 0), RED)?;
     panel.label(Look::THEORY.name, first_point_above(&simple, 0.7 * n as f64), (2, 0), GREEN)?;
     if let Ok(from) = results.number("sweep.rise.half_height") {
-        // Where both come to half of all gaps, an arrow as long as the theory is late in σ. For
-        // the theory that is μ = (N + 1)/2, since the gaps are N + 1.
+        // Where both come to half of all N + 1 gaps, for the theory μ = (N + 1)/2: an arrow as
+        // long as the theory is late in σ.
         let (to, level) = (results.number("theory.relation.sigma_half")?, n as f64 / 2.0);
         panel.area.draw(&arrow(vec![(from, level), (to, level)], Stroke::solid(INK, THIN)))?;
         // In the middle of what is right of the dotted line, which would cross the words.

@@ -32,8 +32,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     // Somewhat wider than the sizes, which would stand on the other axis.
     let masses = || Axis::decades(0, 5, 1, "number of masses *n*").between(7.0, 1.4e4);
     let point = |row: &WorkPoint, y: f64| {
-        let &WorkPoint { setting, masses, .. } = row;
-        Some(Point { setting, x: masses as f64, y, interval: None })
+        Some(Point { setting: row.setting, x: row.masses as f64, y, interval: None })
     };
     let work = |row: &WorkPoint| point(row, row.evaluations_per_impact?);
     let counts = scale.iter().filter_map(|row| row.evaluations_per_impact);

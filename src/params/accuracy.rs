@@ -112,14 +112,9 @@ fn settings(values: impl Fn(&'static MethodSettings) -> &'static [f64]) -> Vec<S
     METHODS.iter().flat_map(own).collect()
 }
 
-/// Where random chains come from.
-pub struct RandomSource {
-    pub stream: &'static str,
-    pub seed: u64,
-}
-
-/// The chains on which other programs are measured.
-pub const BENCH: RandomSource = RandomSource { stream: "bench", seed: 1 };
+/// Random stream and seed of the chains on which other programs are measured.
+pub const BENCH_STREAM: &str = "bench";
+pub const BENCH_SEED: u64 = 1;
 
 /// Every method against the true motion: the next impact from exact states, and whole runs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -141,7 +136,7 @@ impl RaceParams {
         let (until, at_least, chains, segments, realisations) =
             if quick { (30.0, 10.0, 2, 12, 6) } else { (250.0, 20.0, 16, 1200, 60) };
         let chain = Chain { masses: 20, ..Chain::default() };
-        let (stream, seed) = (BENCH.stream.into(), BENCH.seed);
+        let (stream, seed) = (BENCH_STREAM.into(), BENCH_SEED);
         let growth = Runs { chain, sigma: 0.3, until: 300.0, realisations, stream, seed };
         let race = |one: &'static MethodSettings| {
             if quick { std::slice::from_ref(&one.quick_race) } else { one.race }

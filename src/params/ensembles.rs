@@ -34,11 +34,10 @@ pub fn sweep(profile: Profile) -> Vec<Ensemble> {
             let rise = grid.and(4..=15, 200).and(32..=72, 400);
             (rise.and(19..=28, 100).and(15..=20, 50), 1000, 100)
         }
-        Profile::Quick => (
-            grid.and((2..=8).step_by(2), 100).and(9..=16, 100).and(9..=9, 50).and(4..=8, 20),
-            12,
-            6,
-        ),
+        Profile::Quick => {
+            let rise = grid.and([2, 4, 6, 8], 100).and(9..=16, 100);
+            (rise.and([9], 50).and(4..=8, 20), 12, 6)
+        }
     };
     let beyond = Beyond { above: 0.16, realisations: Some(few), until: None };
     vec![Ensemble { beyond: Some(beyond), ..paper("sweep", sigmas, realisations) }]
@@ -68,7 +67,7 @@ pub fn protocol(profile: Profile) -> Vec<Ensemble> {
     // Above, nearly every gap has been hit long before the end.
     let beyond = Some(Beyond { above: 0.131, realisations: None, until: Some(1000.0) });
     let map = paper("protocol", sigmas, realisations);
-    let below = paper("sweep", Grid::default().and(8..=8, 100), below);
+    let below = paper("sweep", Grid::default().and([8], 100), below);
     vec![Ensemble { protocols: protocols.clone(), beyond, ..map }, Ensemble { protocols, ..below }]
 }
 
@@ -191,8 +190,8 @@ pub fn branches(profile: Profile) -> Vec<Ensemble> {
 /// Chains of several restitutions, each at the σ where its half height may lie.
 pub fn restitution(profile: Profile) -> Vec<Ensemble> {
     // σ around the half height, and up to strong forces.
-    let large = Grid::default().and(16..=18, 100).and(4..=7, 20).and(2..=2, 5);
-    let small = Grid::default().and(8..=14, 100).and(16..=18, 100).and(4..=4, 20).and(2..=2, 5);
+    let large = Grid::default().and(16..=18, 100).and(4..=7, 20).and([2], 5);
+    let small = Grid::default().and(8..=14, 100).and(16..=18, 100).and([4], 20).and([2], 5);
     let (cases, realisations): (Vec<(&[f64], Grid)>, _) = match profile {
         Profile::Full => (
             vec![
@@ -202,9 +201,7 @@ pub fn restitution(profile: Profile) -> Vec<Ensemble> {
             ],
             24,
         ),
-        Profile::Quick => {
-            (vec![(&[0.0, 0.8], Grid::default().and([9, 15, 30, 60].into_iter(), 100))], 2)
-        }
+        Profile::Quick => (vec![(&[0.0, 0.8], Grid::default().and([9, 15, 30, 60], 100))], 2),
     };
     let mut ensembles = Vec::new();
     for (restitutions, sigmas) in cases {

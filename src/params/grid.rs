@@ -6,8 +6,8 @@ pub struct Grid(Vec<f64>);
 
 impl Grid {
     /// Appends i / `denominator` for each numerator i.
-    pub fn and(mut self, numerators: impl Iterator<Item = u32>, denominator: u32) -> Self {
-        self.0.extend(numerators.map(|i| f64::from(i) / f64::from(denominator)));
+    pub fn and(mut self, numerators: impl IntoIterator<Item = u32>, denominator: u32) -> Self {
+        self.0.extend(numerators.into_iter().map(|i| f64::from(i) / f64::from(denominator)));
         self
     }
 

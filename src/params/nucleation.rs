@@ -68,7 +68,7 @@ pub struct SeedsParams {
 impl SeedsParams {
     pub fn new(profile: Profile) -> Self {
         let (sigmas, realisations) = match profile {
-            Profile::Full => (Grid::default().and(16..=30, 200).and(16..=16, 100), 240),
+            Profile::Full => (Grid::default().and(16..=30, 200).and([16], 100), 240),
             Profile::Quick => (Grid::default().and(9..=14, 100), 6),
         };
         SeedsParams {

@@ -45,8 +45,7 @@ impl Mean {
     }
 }
 
-/// Counts at one σ, of chains or their pieces. The paper discards those that are not
-/// active.
+/// Counts at one σ, of chains or their pieces. The paper discards those without an impact.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct RisePoint {

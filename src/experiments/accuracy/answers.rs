@@ -127,19 +127,16 @@ pub fn tables(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
     let orbits = ORBITS.map(|until| [false, true].map(|is_generic| orbits(is_generic, until)));
     let programs = results.of(&PROGRAMS).ok()?;
     let trials = results.of(&TRIALS).ok()?;
+    const GAP: &str = "gap between balls of the cradle as the first comes";
+    const RESTS: &str = "programs with a setting right wherever masses rest";
+    const GRAZES: &str = "programs with a setting that sees every graze and nothing else";
     let summary = Table::builder("answers.all", &[()], |()| cases_at_rest(trials))
         .chosen("share", "1", "share of chains in which an orbit must be right", |()| Some(MOST))
         .chosen("tie", "1", "times that differ by less than this factor tie", |()| Some(TIE))
         .computed_by(origin(tables))
-        .real("cradle", "d", 1, "gap between balls of the cradle as the first comes", |()| {
-            cradle(trials)
-        })
-        .words("rest", "programs with a setting right wherever masses rest", |()| {
-            names(programs, &REST)
-        })
-        .words("grazes", "programs with a setting that sees every graze and nothing else", |()| {
-            names(programs, &["grazing-hits", "grazing-misses"])
-        })
+        .real("cradle", "d", 1, GAP, |()| cradle(trials))
+        .words("rest", RESTS, |()| names(programs, &REST))
+        .words("grazes", GRAZES, |()| names(programs, &["grazing-hits", "grazing-misses"]))
         .done();
     let [means, generic] =
         [false, true].map(|is_generic| questions(biases, Times { measured, is_generic }));
@@ -223,9 +220,8 @@ fn question(
         let errors = errors(&pairs);
         let result = match setting.method {
             Certified => {
-                let own = ensembles
-                    .iter()
-                    .map(|(_, (runs, again))| own_error([&runs[0], again], runs[0].len()));
+                let runs = ensembles.iter().map(|(_, runs)| runs);
+                let own = runs.map(|(runs, again)| own_error([&runs[0], again], runs[0].len()));
                 with_error(0.0, if is_share { 0.0 } else { own.fold(0.0, f64::max) })
             }
             // Where all chains agree, only of a share one knows how often they would not.

@@ -168,16 +168,15 @@ pub fn bias(biases: &Biases) -> Vec<Table> {
 pub fn scale(scale: &Scale) -> Vec<Table> {
     let methods = scale.chunk_by(|a, b| a.setting.method == b.setting.method);
     let ends: Vec<_> = methods.map(|rows| (&rows[0], &rows[rows.len() - 1])).collect();
+    const WORK: &str = "evaluations per impact";
     let table = Table::builder("scale.ends", &ends, |_| 1)
         .text_key("method", |(few, _)| few.setting.method.id().into())
         .chosen("setting", TIME, "step or tolerance", |(few, _)| Some(few.setting.value))
         .chosen("small", "1", "fewest masses", |(few, _)| Some(few.masses as f64))
         .chosen("large", "1", "most masses", |(_, many)| Some(many.masses as f64))
         .computed_by(origin(scale::run))
-        .real("work_small", "1", 2, "evaluations per impact", |(few, _)| few.evaluations_per_impact)
-        .real("work_large", "1", 2, "evaluations per impact", |(_, many)| {
-            many.evaluations_per_impact
-        })
+        .real("work_small", "1", 2, WORK, |(few, _)| few.evaluations_per_impact)
+        .real("work_large", "1", 2, WORK, |(_, many)| many.evaluations_per_impact)
         .done();
     vec![table]
 }

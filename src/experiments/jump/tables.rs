@@ -14,7 +14,7 @@ pub fn make(jumps: &Jumps) -> Vec<Table> {
 }
 
 fn run(jumps: &Jumps) -> Table {
-    let windows_with = |outcome: Option<bool>| {
+    let count = |outcome: Option<bool>| {
         let same = |window: &&WindowJump| window.jump.all_gaps.is_jump() == outcome;
         jumps.windows.iter().filter(same).count() as u64
     };
@@ -24,11 +24,9 @@ fn run(jumps: &Jumps) -> Table {
         .count("sigmas", "values of σ", |_| first.map_or(0, |one| one.histograms.len() as u64))
         .count("windows", "windows", |jumps| jumps.windows.len() as u64)
         .computed_by(origin(Passing::is_jump))
-        .count("jumps", "windows in which the mode surely jumps to all gaps", |_| {
-            windows_with(Some(true))
-        })
-        .count("climbs", "windows in which it surely climbs there", |_| windows_with(Some(false)))
-        .count("open", "windows in which the sample does not tell", |_| windows_with(None))
+        .count("jumps", "windows in which the mode surely jumps to all gaps", |_| count(Some(true)))
+        .count("climbs", "windows in which it surely climbs there", |_| count(Some(false)))
+        .count("open", "windows in which the sample does not tell", |_| count(None))
         .done()
 }
 
