@@ -35,10 +35,10 @@ pub fn script(module: &[u8], results: &Results, script: &str) -> Result<String, 
         .map(|((name, request), result)| json!({ "name": name, "asked": request, "found": result }))
         .collect();
     // To a hundredth of a gap, which no eye sees.
-    let rounded = |mean: Option<Mean>| mean.map(|mean| (mean.value * 100.0).round() / 100.0);
+    let round = |mean: Option<Mean>| mean.map(|mean| (mean.value * 100.0).round() / 100.0);
     let row = |row: &RisePoint| {
         let [low, high] = [0.05, 0.95].map(|share| count_quantile(&row.counts, share).unwrap_or(0));
-        (row.sigma, rounded(row.mean_all), rounded(row.mean), low, high)
+        (row.sigma, round(row.mean_all), round(row.mean), low, high)
     };
     let rows: Vec<_> = sweep.comparable().map(row).collect();
     let (gaps, half) = (sweep.ensemble.chain.gaps(), sweep.first_curve().rise.half_height);
@@ -61,14 +61,14 @@ pub fn script(module: &[u8], results: &Results, script: &str) -> Result<String, 
 /// Encodes bytes in Base64 with padding (RFC 4648).
 fn base64(bytes: &[u8]) -> String {
     const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut encoded = String::with_capacity(bytes.len().div_ceil(3) * 4);
+    let mut digits = String::with_capacity(bytes.len().div_ceil(3) * 4);
     for chunk in bytes.chunks(3) {
         let mut word = [0; 4];
         word[1..=chunk.len()].copy_from_slice(chunk);
         for i in 0..4 {
             let letter = LETTERS[(u32::from_be_bytes(word) >> (18 - 6 * i) & 63) as usize];
-            encoded.push(if i <= chunk.len() { letter as char } else { '=' });
+            digits.push(if i <= chunk.len() { letter as char } else { '=' });
         }
     }
-    encoded
+    digits
 }

@@ -63,7 +63,7 @@ fn small_in_windows<'a>(e: &Evidence<'a>) -> Result<Vec<&'a RisePoint>, Error> {
     Ok(late_curves(e, "sweep")?.iter().filter_map(|curve| curve.rows.first()).collect())
 }
 
-/// By the mean of the realisations with an impact, in each window of the map of protocols.
+/// By the mean of the active realisations, in each window of the map of protocols.
 fn few_below(e: &Evidence<'_>) -> Judged {
     let row = small_force(e)?;
     let here = e.estimate(&format!("sweep.rows[sigma={}].mean", row.sigma))?;
@@ -80,7 +80,7 @@ fn few_below(e: &Evidence<'_>) -> Judged {
     )
 }
 
-/// By the share of the realisations with an impact, with its interval, in each window of the map.
+/// By the share of the active realisations, with its interval, in each window of the map.
 fn none_below(e: &Evidence<'_>) -> Judged {
     let row = small_force(e)?;
     let here = e.estimate(&format!("sweep.rows[sigma={}].kept", row.sigma))?;

@@ -131,7 +131,7 @@ fn p_poor(e: &Evidence<'_>) -> Judged {
     )
 }
 
-/// Returns the simulated means of the realisations with an impact, against σ.
+/// Returns the simulated means of the active realisations, against σ.
 fn means_of(curve: &Curve) -> Vec<(f64, f64)> {
     let mean = |row: &RisePoint| Some((row.sigma, row.mean?.value));
     curve.rows.iter().filter_map(mean).collect()

@@ -54,8 +54,8 @@ impl Run {
         let scene = scenes().into_iter().find(|other| other.id == scene)?;
         let mut cases: Vec<_> = scene.cases.iter().zip(self.trial(&scene)).collect();
         cases.sort_by(|a, b| b.0.difficulty.total_cmp(&a.0.difficulty));
-        let solved = cases.iter().take_while(|(_, outcome)| **outcome == Outcome::Right);
-        solved.last().map(|(case, _)| case.difficulty)
+        let successes = cases.iter().take_while(|(_, outcome)| **outcome == Outcome::Right);
+        successes.last().map(|(case, _)| case.difficulty)
     }
 }
 
@@ -85,6 +85,7 @@ fn tables(programs: &Vec<Program>) -> Vec<Table> {
     let among = |run: &Run, these: &[Outcome]| {
         run.outcomes.values().flatten().filter(|outcome| these.contains(outcome)).count() as u64
     };
+    const SHARES: &str = "shares of scenes that are right, added up";
     const GRAZE: &str = "smallest depth down to which all grazes are seen";
     const RECONTACT: &str = "the same of gaps that reopen slowly";
     const WARNED: &str = "cases that were refused or had a message";
@@ -100,9 +101,7 @@ fn tables(programs: &Vec<Program>) -> Vec<Table> {
         .count("cases", "cases of all scenes", |(.., run)| total(Trial::len, run) as u64)
         .count("right", "cases with the expected outcome", |(.., run)| total(right, run) as u64)
         .count("scenes", "all scenes", |(.., run)| run.outcomes.len() as u64)
-        .real("by_scene", "1", 3, "shares of scenes that are right, added up", |(.., run)| {
-            run.outcomes.values().map(share).sum::<f64>()
-        })
+        .real("by_scene", "1", 3, SHARES, |(.., run)| run.outcomes.values().map(share).sum::<f64>())
         .real("graze", "1", 1, GRAZE, |(.., run)| run.hardest("grazing-hits"))
         .real("recontact", "1", 1, RECONTACT, |(.., run)| run.hardest("recontact"))
         .count("warned", WARNED, |(.., run)| among(run, &[Outcome::Refused, Outcome::Warned]))

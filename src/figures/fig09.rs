@@ -15,15 +15,15 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let frame = Frame::new(1150, 430, 8150, 3430);
     let mode = sheet.lettered("(a)", frame, p().without_numbers(), y("*k*^{∗}"))?;
     let frame = Frame::new(1150, 4130, 8150, 7130);
-    let expected = sheet.lettered("(b)", frame, p(), y("*μ*"))?.outside(Outside::Cut);
+    let mean = sheet.lettered("(b)", frame, p(), y("*μ*"))?.outside(Outside::Cut);
 
     let p_jump = results.number("theory.jump.p_jump")?;
     let jump = results.number("theory.jump.k_after")?;
     most_likely([p_jump, jump], &mode)?;
     let text = format!("from 1 to {jump} at *p* = {}", short(p_jump, 4));
     mode.label(&text, (p_jump, jump / 2.0), (2, 0), INK)?;
-    expected.curve("mean", &means(), Look::THEORY.line)?;
-    expected.label("*μ* → 1 as *p* → 0", (expected.x.lo, 1.0), (3, -2), INK)?;
+    mean.curve("mean", &means(), Look::THEORY.line)?;
+    mean.label("*μ* → 1 as *p* → 0", (mean.x.lo, 1.0), (3, -2), INK)?;
 
     let description = describe!(
         "Against the edge probability p on a logarithmic axis, for N = {N}: (a) the most likely number of impacts is 1 up \

@@ -15,9 +15,9 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     draw_printed_threshold(&panel, 0.0)?;
     let simple = theory_points(results, "simple")?;
     panel.curve(Look::THEORY.name, &simple, Look::THEORY.line)?;
-    let simulated = simulated_points(results)?;
-    panel.markers(Look::ACTIVE.name, &simulated, Look::ACTIVE.mark)?;
-    panel.label("simulation", first_point_above(&simulated, 0.3 * n as f64), (-2, 0), RED)?;
+    let simulation = simulated_points(results)?;
+    panel.markers(Look::ACTIVE.name, &simulation, Look::ACTIVE.mark)?;
+    panel.label("simulation", first_point_above(&simulation, 0.3 * n as f64), (-2, 0), RED)?;
     panel.label(Look::THEORY.name, first_point_above(&simple, 0.7 * n as f64), (2, 0), GREEN)?;
     if let Ok(from) = results.number("sweep.rise.half_height") {
         // Where both come to half of all N + 1 gaps, for the theory μ = (N + 1)/2: an arrow as
@@ -35,7 +35,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         "Expected number of impacts against σ: crosses for the simulation, {} at σ = {threshold}; a line for the graph theory with N = \
          {VERTICES}, {} there. The simulation rises earlier than the theory; an arrow shows by how much at half height. For large \
          σ the two come together.",
-        value_in_words(&simulated, threshold),
+        value_in_words(&simulation, threshold),
         value_in_words(&simple, threshold),
     );
     Ok(sheet.finish("Simulation against graph theory", description))

@@ -112,16 +112,16 @@ pub fn all_by_method<T>(rows: &[T], point: impl Fn(&T) -> Option<Point>) -> Curv
 /// Returns the engine and other programs on one chain of `masses` masses: for each setting the time
 /// of an impact over the engine's, and the time up to which the run is right, at most its end.
 pub fn programs(measured: &Measured, masses: usize) -> Vec<(&str, Vec<(f64, f64)>)> {
-    let mut found: Vec<(&str, Vec<(f64, f64)>)> = Vec::new();
+    let mut groups: Vec<(&str, Vec<(f64, f64)>)> = Vec::new();
     let rows = measured.rows_about(Subject::Engine).chain(measured.rows_about(Subject::Peer));
     for row in rows.filter(|row| row.n == masses as u64 && row.chains == 1) {
         let time = row.microseconds_per_impact.zip(measured.engine(row));
         let Some(time) = time.map(|(time, engine)| time / engine) else { continue };
         let point = (time, row.horizon_time.unwrap_or(row.until));
-        match found.last_mut().filter(|last| last.0 == row.name) {
+        match groups.last_mut().filter(|last| last.0 == row.name) {
             Some(last) => last.1.push(point),
-            None => found.push((&row.name, vec![point])),
+            None => groups.push((&row.name, vec![point])),
         }
     }
-    found
+    groups
 }

@@ -83,8 +83,8 @@ fn halves(sheet: &Sheet, rise: &Table, scores: &Table) -> Drawn {
         sheet.lettered("(c)", Frame::new(5600, 5250, 8150, 7650), x, y)?.outside(Outside::Edge);
     let grown = rise.curve(&[], "transient", "half_height")?;
     panel.marked_curve(Look::SEEDS.name, &grown, Look::SEEDS.mark.2, Look::SEEDS.mark)?;
-    let found = scores.series(&[], "transient", "half_height")?;
-    panel.joined_estimates(Look::ALL.name, &found, Look::ALL.mark)?;
+    let half_heights = scores.series(&[], "transient", "half_height")?;
+    panel.joined_estimates(Look::ALL.name, &half_heights, Look::ALL.mark)?;
     panel.label("all chains", (150.0, 0.1355), (1, 0), RED)?;
     panel.label(Look::SEEDS.name, (300.0, 0.109), (-1, 0), INK)
 }

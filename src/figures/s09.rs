@@ -34,8 +34,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     errors.level("counts as missed", DISPLACED, Stroke::dashed(GREY, HAIR, SHORT))?;
     errors.label("missed above", (errors.x.hi, DISPLACED), (-1, -1), INK)?;
 
-    let tried = race.entries.iter().map(|e| e.tried).max().unwrap_or(1);
-    let bottom = -(pxfm::f_log10(tried as f64).ceil() as i32) - 1;
+    let states = race.entries.iter().map(|e| e.tried).max().unwrap_or(1);
+    let bottom = -(pxfm::f_log10(states as f64).ceil() as i32) - 1;
     let mut axis = Axis::decades(bottom, 0, 1, "share missed");
     // Below one in all that were tried there is nothing but zero.
     axis.ticks.retain(|tick| tick.at <= axis.lo || tick.at >= 9.5 * axis.lo);

@@ -39,6 +39,7 @@ const BELOW: &str = "number of gaps at that peak";
 const CLEARANCE: &str = "likeliest number between, below both by this part";
 const SINGLE: &str = "σ where a single gap is as likely as the peak of the bulk";
 const JUMPS: &str = "1 if the mode surely jumps, 0 if it surely climbs";
+const SINGLE_JUMPS: &str = "the same where a single gap is overtaken";
 
 fn windows(jumps: &Jumps) -> Table {
     Table::builder("jump.windows", &jumps.windows, |_| 0)
@@ -53,9 +54,7 @@ fn windows(jumps: &Jumps) -> Table {
         .estimate("single_clearance", "1", CLEARANCE, |window| window.jump.single_gap.clearance)
         .computed_by(origin(Passing::is_jump))
         .chosen("jumps", "1", JUMPS, |window| outcome(&window.jump.all_gaps))
-        .chosen("single_jumps", "1", "the same where a single gap is overtaken", |window| {
-            outcome(&window.jump.single_gap)
-        })
+        .chosen("single_jumps", "1", SINGLE_JUMPS, |window| outcome(&window.jump.single_gap))
         .done()
 }
 

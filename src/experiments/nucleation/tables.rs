@@ -9,7 +9,7 @@ struct Chains {
     sigma: f64,
     time: f64,
     ran: u64,
-    /// Those of them with an impact by then.
+    /// The active ones of them, with an impact by then.
     active: u64,
     expected: f64,
 }
@@ -43,7 +43,7 @@ fn single(gaps: &[Gaps]) -> Table {
         .done()
 }
 
-/// Makes the table of the share of the chains with an impact by the latest time, at more σ.
+/// Makes the table of the share of chains that are active by the latest time, at more σ.
 fn shares(lengths: &[usize], curve: &[(f64, Chances)]) -> Table {
     let expected = |(masses, (sigma, chances)): (usize, &(f64, Chances))| {
         (masses, *sigma, chances.at_least_one(masses, Chain::default().boundary))
