@@ -113,8 +113,7 @@ fn laws_of_chance(e: &Evidence<'_>) -> Departures {
     Ok(departures)
 }
 
-/// Half heights of the mean of the active realisations and of all, onset, and where half of
-/// the realisations are active.
+/// Half heights of the mean of active realisations and of all, onset, and where half are active.
 fn map_meets_sweep(e: &Evidence<'_>) -> Departures {
     let sweep = sweep::main_sweep(e.results)?.first_curve();
     let map = ensemble(e.results.of(&PROTOCOL)?, "protocol")?;
