@@ -39,7 +39,7 @@ pub fn rows(results: &Results, checks: &[Check]) -> Result<BTreeMap<&'static str
     let sizes: Vec<usize> = methods().map(<[_]>::len).collect();
     let trials = trials.parameters.scenes.iter().zip(&trials.trials);
     let programs = results.of(&PROGRAMS)?.iter();
-    let tested: Vec<&Program> = programs.filter(|program| !program.settings.is_empty()).collect();
+    let programs: Vec<&Program> = programs.filter(|program| !program.settings.is_empty()).collect();
     Ok(BTreeMap::from([
         (
             "basis_table",
@@ -49,9 +49,9 @@ pub fn rows(results: &Results, checks: &[Check]) -> Result<BTreeMap<&'static str
         ("scene_table", trials.map(|(scene, trials)| scene_row(scene, trials, &sizes)).collect()),
         (
             "program_heads",
-            json!(tested.iter().map(|program| &program.settings[0].name).collect::<Vec<_>>()),
+            json!(programs.iter().map(|program| &program.settings[0].name).collect::<Vec<_>>()),
         ),
-        ("program_table", program_table(&tested)),
+        ("program_table", program_table(&programs)),
     ]))
 }
 
@@ -78,10 +78,10 @@ fn mark(name: &str) -> String {
 }
 
 /// Returns the rows of the table of scenes for programs that people use.
-fn program_table(tested: &[&Program]) -> Json {
-    let sizes: Vec<usize> = tested.iter().map(|program| program.settings.len()).collect();
+fn program_table(programs: &[&Program]) -> Json {
+    let sizes: Vec<usize> = programs.iter().map(|program| program.settings.len()).collect();
     let row = |scene: &Scene| {
-        let runs = tested.iter().flat_map(|program| &program.settings);
+        let runs = programs.iter().flat_map(|program| &program.settings);
         let trials: Vec<Trial> = runs.map(|run| run.trial(scene).clone()).collect();
         scene_row(scene, &trials, &sizes)
     };
@@ -116,9 +116,9 @@ fn scene_row(scene: &Scene, trials: &[Trial], sizes: &[usize]) -> Json {
     let mut outcomes = trials.iter().flatten();
     let is_said =
         |outcome: &Outcome| matches!(outcome, Outcome::GaveUp | Outcome::Refused | Outcome::Warned);
-    let announced = outcomes.clone().any(is_said);
-    let silent = outcomes.any(|outcome| *outcome != Outcome::Right && !is_said(outcome));
-    let failure = match (announced, silent) {
+    let says_so = outcomes.clone().any(is_said);
+    let is_silent = outcomes.any(|outcome| *outcome != Outcome::Right && !is_said(outcome));
+    let failure = match (says_so, is_silent) {
         (false, false) => "–",
         (true, false) => "announced",
         (false, true) => "silent",

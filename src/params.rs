@@ -10,7 +10,9 @@ mod methods;
 mod nucleation;
 mod runs;
 
-pub use accuracy::{BENCH, BiasParams, Means, RaceParams, ScaleParams, trial_settings};
+pub use accuracy::{
+    BENCH_SEED, BENCH_STREAM, BiasParams, Means, RaceParams, ScaleParams, trial_settings,
+};
 pub use chosen::*;
 pub use ensemble::{Beyond, Ensemble, Heating, lowered};
 pub use ensembles::*;

@@ -233,7 +233,8 @@ fn cases(of: Of) -> Vec<Case> {
             ORBITS.into_iter().flat_map(orbit).chain(shares).collect()
         }
         Of::Scale => {
-            let ScaleParams { sigma, masses, rivals, settings } = ScaleParams::new(Profile::Full);
+            let ScaleParams { sigma, masses, largest_for_rivals: most, settings } =
+                ScaleParams::new(Profile::Full);
             let of = |setting: Setting| {
                 let own = setting.method == MethodName::Certified;
                 let chains = move |n: usize| Runs {
@@ -243,7 +244,7 @@ fn cases(of: Of) -> Vec<Case> {
                     realisations: (1000 / n).max(1),
                     ..race()
                 };
-                let masses = masses.iter().copied().filter(move |n| own || *n <= rivals);
+                let masses = masses.iter().copied().filter(move |n| own || *n <= most);
                 masses.map(move |n| alone("size", chains(n), setting))
             };
             settings.into_iter().flat_map(of).collect()

@@ -73,9 +73,9 @@ fn two_seeds(e: &Evidence<'_>) -> Departures {
     if let [Ok(first), Ok(second)] = halves.map(|address| e.estimate(address)) {
         departures.push(departure(e.level()?.quantile, &first, &second));
     }
-    let first = sweep::main(e.results)?.first();
-    let second = ensemble(e.results.of(&SECOND_SEED)?, "sweep")?.first();
-    let estimate = |row: &RisePoint| row.mean.filter(|_| row.kept >= FEWEST)?.estimate();
+    let first = sweep::main_sweep(e.results)?.first_curve();
+    let second = ensemble(e.results.of(&SECOND_SEED)?, "sweep")?.first_curve();
+    let estimate = |row: &RisePoint| row.mean.filter(|_| row.active >= FEWEST)?.estimate();
     let between = |row: &RisePoint| {
         let same = first.rows.iter().find(|other| other.sigma == row.sigma)?;
         Some(difference(estimate(same)?, estimate(row)?))
@@ -93,7 +93,7 @@ fn two_seeds(e: &Evidence<'_>) -> Departures {
 /// a tenth of it, and of those below a speed a hundredth are below a tenth of it. Over all decades;
 /// for speeds only where no pair came in contact, since the last bounces of a chatter are slow.
 fn laws_of_chance(e: &Evidence<'_>) -> Departures {
-    let row = sweep::main(e.results)?.runs.iter().find(|row| row.sigma == 0.2);
+    let row = sweep::main_sweep(e.results)?.runs.iter().find(|row| row.sigma == 0.2);
     let total = &row.ok_or(Undecided)?.total;
     // Impacts within each of some limits, where the next limit leaves this share of them.
     let mut laws = vec![(&total.near[1..], 0.1)];
@@ -113,12 +113,11 @@ fn laws_of_chance(e: &Evidence<'_>) -> Departures {
     Ok(departures)
 }
 
-/// Half heights of the mean of the realisations with an impact and of all, onset, and where half of
-/// the realisations have one.
+/// Half heights of the mean of active realisations and of all, onset, and where half are active.
 fn map_meets_sweep(e: &Evidence<'_>) -> Departures {
-    let sweep = sweep::main(e.results)?.first();
+    let sweep = sweep::main_sweep(e.results)?.first_curve();
     let map = ensemble(e.results.of(&PROTOCOL)?, "protocol")?;
-    let window = map.curve(sweep.protocol.transient, sweep.protocol.window).ok_or(Undecided)?;
+    let window = map.find_curve(sweep.protocol).ok_or(Undecided)?;
     let places = |curve: &Curve| {
         let rise = &curve.rise;
         [rise.half_height, rise.half_height_all, rise.onset, rise.kept_half]
@@ -216,10 +215,11 @@ fn engine_as_promised(e: &Evidence<'_>) -> Departures {
         departures.extend(engine.units.map(|units| units / WAITING));
     }
     let scale = e.results.of(&SCALE)?.iter();
-    let engine = || scale.clone().filter(|row| row.0.method == MethodName::Certified);
-    let largest = engine().max_by_key(|row| row.1);
-    if let Some((largest, hundred)) = largest.zip(engine().find(|row| row.1 == 100)) {
-        departures.push(largest.2 / hundred.2 / 2.0);
+    let engine = || scale.clone().filter(|row| row.setting.method == MethodName::Certified);
+    let largest = engine().max_by_key(|row| row.masses);
+    let hundred = engine().find(|row| row.masses == 100);
+    if let [Some(most), Some(few)] = [largest, hundred].map(|row| row?.evaluations_per_impact) {
+        departures.push(most / few / 2.0);
     }
     Ok(departures)
 }

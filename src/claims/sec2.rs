@@ -4,7 +4,7 @@ use super::shared::*;
 use crate::experiments::rise::{Curve, Rise, RisePoint};
 use crate::experiments::sweep::{self, mode_half};
 use crate::experiments::theory::comparison::LARGE_SIGMA;
-use crate::experiments::{JUMP, LENGTHS, TWO_MASSES};
+use crate::experiments::{LENGTHS, MODE_JUMP, TWO_MASSES};
 use crate::params::{Chain, NEAR_SIMULTANEOUS, Protocol, SLOW};
 use impact_chain::mode_jump::Passing;
 use impact_numerics::estimates::with_error;
@@ -37,7 +37,7 @@ pub fn rules() -> Vec<Rule> {
 }
 
 fn parameters(e: &Evidence<'_>) -> Judged {
-    let chain = &sweep::main(e.results)?.ensemble.chain;
+    let chain = &sweep::main_sweep(e.results)?.ensemble.chain;
     let (n, d, omega, r) =
         (chain.masses, chain.spacing, chain.natural_frequency, chain.restitution);
     let square = chain.forcing_frequency * chain.forcing_frequency;
@@ -51,7 +51,7 @@ fn parameters(e: &Evidence<'_>) -> Judged {
 /// (0.67, so that 0.08 is one).
 pub(super) fn small_force<'a>(e: &Evidence<'a>) -> Result<&'a RisePoint, Error> {
     let threshold = e.published.statement("sec2_half_height")?.number()?;
-    let rows = &sweep::main(e.results)?.first().rows;
+    let rows = &sweep::main_sweep(e.results)?.first_curve().rows;
     rows.iter().rev().find(|row| row.sigma < 0.67 * threshold).ok_or(Undecided)
 }
 
@@ -63,7 +63,7 @@ fn small_in_windows<'a>(e: &Evidence<'a>) -> Result<Vec<&'a RisePoint>, Error> {
     Ok(late_curves(e, "sweep")?.iter().filter_map(|curve| curve.rows.first()).collect())
 }
 
-/// By the mean of the realisations with an impact, in each window of the map of protocols.
+/// By the mean of the active realisations, in each window of the map of protocols.
 fn few_below(e: &Evidence<'_>) -> Judged {
     let row = small_force(e)?;
     let here = e.estimate(&format!("sweep.rows[sigma={}].mean", row.sigma))?;
@@ -73,23 +73,23 @@ fn few_below(e: &Evidence<'_>) -> Judged {
     let few = means.iter().filter(|mean| mean.value <= limit).count();
     let [first, .., last] = means[..] else { return Err(Undecided) };
     let (all, released) = (means.len(), RELEASED);
-    let RisePoint { sigma, kept, ran, .. } = *row;
+    let RisePoint { sigma, active: kept, ran, .. } = *row;
     e.check(
         by_runs([few, all - few, all]),
         numbers![sigma, here, limit, all, released, few, first, last, kept, ran],
     )
 }
 
-/// By the share of the realisations with an impact, with its interval, in each window of the map.
+/// By the share of the active realisations, with its interval, in each window of the map.
 fn none_below(e: &Evidence<'_>) -> Judged {
     let row = small_force(e)?;
     let here = e.estimate(&format!("sweep.rows[sigma={}].kept", row.sigma))?;
     let limit = 1.0 / VERY_FEW;
     let (rows, level) = (small_in_windows(e)?, 1.0 - e.level()?.each);
-    let intervals = rows.iter().filter_map(|row| wilson(row.kept as u64, row.ran as u64, level));
+    let intervals = rows.iter().filter_map(|row| wilson(row.active as u64, row.ran as u64, level));
     let none = intervals.clone().filter(|[_, high]| *high <= limit).count();
     let some = intervals.filter(|[low, _]| *low > limit).count();
-    let shares = rows.iter().map(|row| row.kept as f64 / row.ran as f64);
+    let shares = rows.iter().map(|row| row.active as f64 / row.ran as f64);
     let [least, most] = extremes(shares).ok_or(Undecided)?;
     let random = e.number(&format!("theory.gap[sigma={}].any_random", row.sigma))?;
     let half = e.estimate("sweep.rise.kept_half")?;
@@ -112,7 +112,7 @@ fn jump(e: &Evidence<'_>) -> Judged {
 
 /// Returns where the mode passes to all gaps in each window that begins late enough.
 fn passings<'a>(e: &Evidence<'a>) -> Result<Vec<(Protocol, &'a Passing)>, Error> {
-    let windows = e.results.of(&JUMP)?.windows.iter();
+    let windows = e.results.of(&MODE_JUMP)?.windows.iter();
     let passing = windows.map(|window| (window.protocol, &window.jump.all_gaps));
     Ok(passing.filter(|(protocol, _)| protocol.transient >= RELEASED).collect())
 }
@@ -136,7 +136,7 @@ fn mode_jump(e: &Evidence<'_>) -> Judged {
     let outcomes: Vec<_> = passings.map(|(_, passing)| passing.is_jump()).collect();
     let [jumps, climbs] =
         [true, false].map(|sure| outcomes.iter().filter(|jump| **jump == Some(sure)).count());
-    let run = e.results.of(&JUMP)?;
+    let run = e.results.of(&MODE_JUMP)?;
     let single = run.windows.iter().filter(|w| w.jump.single_gap.is_jump() == Some(true)).count();
     let [windows, sure, no] = e.numbers("jump.run", ["windows", "jumps", "climbs"])?;
     let (all, tenth, released) = (outcomes.len(), gaps / 10.0, RELEASED);

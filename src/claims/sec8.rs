@@ -60,8 +60,8 @@ fn no_impact(e: &Evidence<'_>) -> Judged {
     let random = ensemble(e.results.of(&STARTS)?, "random")?;
     let [mut above, mut overlaps, mut chains, mut expected] = [0.0; 4];
     let mut shares_of_bound = Vec::new();
-    for (row, counted) in random.runs.iter().zip(&random.first().rows) {
-        let (ran, begun) = (row.realisations - row.failed, counted.kept + row.rejected);
+    for (row, point) in random.runs.iter().zip(&random.first_curve().rows) {
+        let (ran, begun) = (row.realisations - row.failed, point.active + row.rejected);
         let bound = e.number(&format!("theory.gap[sigma={}].any_random", row.sigma));
         let interval = wilson(begun as u64, ran as u64, 1.0 - e.level()?.each);
         let (Ok(bound), Some([low, _])) = (bound, interval) else { continue };
@@ -131,7 +131,7 @@ fn p_poor(e: &Evidence<'_>) -> Judged {
     )
 }
 
-/// Returns the simulated means of the realisations with an impact, against σ.
+/// Returns the simulated means of the active realisations, against σ.
 fn means_of(curve: &Curve) -> Vec<(f64, f64)> {
     let mean = |row: &RisePoint| Some((row.sigma, row.mean?.value));
     curve.rows.iter().filter_map(mean).collect()
@@ -188,7 +188,7 @@ fn threshold_shift(e: &Evidence<'_>) -> Judged {
 
 fn mean_is_easier(e: &Evidence<'_>) -> Judged {
     let [low, high] = e.numbers("sweep.rise", ["onset", "half_height_all"])?;
-    let rows = sweep::main(e.results)?.first().rows.iter();
+    let rows = sweep::main_sweep(e.results)?.first_curve().rows.iter();
     let rows = rows.filter(|row| low <= row.sigma && row.sigma <= high);
     // Width of the mode's bootstrap interval over that of the mean.
     let ratio = |row: &RisePoint| {
@@ -213,7 +213,7 @@ fn restitution_omitted(e: &Evidence<'_>) -> Judged {
     let moved = range(halves.iter().map(|(_, half)| Some(*half))).ok_or(Undecided)?;
     let map = ensemble(e.results.of(&PROTOCOL)?, "protocol")?;
     let share_after = |curve: &Curve| {
-        let rest = map.curve(curve.protocol.transient, curve.protocol.window)?;
+        let rest = map.find_curve(curve.protocol)?;
         let [rest, random] = [rest.rise.half_height?, curve.rise.half_height?];
         Some(share_of_start(rest, random, theory).value)
     };
@@ -229,8 +229,8 @@ fn restitution_omitted(e: &Evidence<'_>) -> Judged {
 fn ensured(e: &Evidence<'_>, pick: fn(&Total) -> u64) -> Judged {
     let restitutions = e.results.table("restitution.curves")?.distinct("r")?;
     let (r, lowest) = (e.published.parameter("restitution")?, restitutions[0]);
-    let counted = e.results.of(&RESTITUTION)?;
-    let chains = |r: f64| counted.iter().find(|chains| chains.ensemble.chain.restitution == r);
+    let ensembles = e.results.of(&RESTITUTION)?;
+    let chains = |r: f64| ensembles.iter().find(|chains| chains.ensemble.chain.restitution == r);
     // Of all impacts at r and σ, or `None` where these were not run.
     let share = |r, sigma| {
         let total = &chains(r)?.runs.iter().find(|row| row.sigma == sigma)?.total;

@@ -42,14 +42,14 @@ pub fn rules() -> Vec<Rule> {
 }
 
 fn fig6_repeats(e: &Evidence<'_>) -> Judged {
-    let repeated = e.results.of(&SEGMENTS)?.fig06.repeats();
+    let repeats = e.results.of(&SEGMENTS)?.fig06.repeats();
     let each: Vec<String> =
-        repeated.iter().map(|(name, times)| format!("{name}: {times}")).collect();
-    let times: Vec<String> = repeated.iter().map(|(_, times)| times.to_string()).collect();
+        repeats.iter().map(|(name, times)| format!("{name}: {times}")).collect();
+    let times: Vec<String> = repeats.iter().map(|(_, times)| times.to_string()).collect();
     let reads =
-        e.statement.printed == format!("{} impacts; {} times", repeated.len(), times.join(", "));
-    let first = repeated.first().is_some_and(|(name, _)| name == "L-1");
-    let agrees = repeated.len() as f64 == e.statement.number()? && reads && first;
+        e.statement.printed == format!("{} impacts; {} times", repeats.len(), times.join(", "));
+    let first = repeats.first().is_some_and(|(name, _)| name == "L-1");
+    let agrees = repeats.len() as f64 == e.statement.number()? && reads && first;
     e.check(agrees, numbers![repeats = each.join(", ")])
 }
 
@@ -196,7 +196,7 @@ fn relation_matters(e: &Evidence<'_>) -> Judged {
 
 fn improves(e: &Evidence<'_>) -> Judged {
     let [simple, higher] = e.numbers("sweep.against_theory", ["simple", "higher"])?;
-    let improved = |[simple, higher]: [f64; 2]| higher < simple && higher >= 0.8 * simple;
+    let is_better = |[simple, higher]: [f64; 2]| higher < simple && higher >= 0.8 * simple;
     let table = e.results.table("theory.curve")?;
     let column = |name| table.curve(&[], "sigma", name);
     let curves = [column("simple")?, column("higher")?];
@@ -204,9 +204,9 @@ fn improves(e: &Evidence<'_>) -> Judged {
     let mut better = 0;
     for means in &windows {
         let [simple, higher] = curves.each_ref().map(|curve| comparison::distance(means, curve));
-        better += usize::from(simple.zip(higher).is_some_and(|(a, b)| improved([a, b])));
+        better += usize::from(simple.zip(higher).is_some_and(|(a, b)| is_better([a, b])));
     }
-    let agrees = improved([simple, higher]) && better == windows.len();
+    let agrees = is_better([simple, higher]) && better == windows.len();
     let (large, windows, released) = (LARGE_SIGMA, windows.len(), RELEASED);
     e.check(agrees, numbers![large, simple, higher, better, windows, released])
 }

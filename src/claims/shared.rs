@@ -9,8 +9,8 @@ pub use literate::claims::{Check, Evidence, Judged, Kind, Rule, Text};
 pub use literate::numbers;
 
 /// Finds the chains of this name among those of an experiment.
-pub fn ensemble<'a>(counted: &'a [Counted], name: &str) -> Result<&'a Counted, Error> {
-    find_ensemble(counted, name).ok_or(Undecided)
+pub fn ensemble<'a>(ensembles: &'a [Counted], name: &str) -> Result<&'a Counted, Error> {
+    find_ensemble(ensembles, name).ok_or(Undecided)
 }
 
 /// A shorter transient counts the first impacts of a chain that has just been released (ours).

@@ -129,18 +129,18 @@ impl Inputs {
     /// it needs.
     fn complete(mut self, name: &str, needed: &str) -> Result<Inputs, Failure> {
         let needs = |need: &str| needed.split(' ').any(|needed| needed == need);
-        let given = serde_json::to_value(&self).unwrap_or_default();
-        let unused = |option: &&String| match option.as_str() {
+        let values = serde_json::to_value(&self).unwrap_or_default();
+        let is_unused = |option: &&String| match option.as_str() {
             "masses" | "vertices" => !needs("N"),
             "omega" | "forcing_frequency" | "spacing" => !needs("oscillator"),
             option => !needs(option),
         };
-        if let Some(option) = given.as_object().and_then(|given| given.keys().find(unused)) {
+        if let Some(option) = values.as_object().and_then(|values| values.keys().find(is_unused)) {
             let option = option.replace('_', "-");
             let message = format!("--{option}: {name} does not depend on it; leave it out");
             return Err(Failure::input(message));
         }
-        let missing = |need: &&str| !["N", "oscillator"].contains(need) && given[*need].is_null();
+        let missing = |need: &&str| !["N", "oscillator"].contains(need) && values[*need].is_null();
         if let Some(need) = needed.split(' ').find(missing) {
             return Err(Failure::input(format!("--{need}: {name} needs it; see `eval --help`")));
         }

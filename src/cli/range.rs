@@ -1,21 +1,23 @@
 //! Reads numbers of the command line that must lie in a range.
 
+use std::ops::RangeInclusive;
 use std::sync::Arc;
 
+/// A parser of one value of the command line.
+pub trait Parse<T>: Fn(&str) -> Result<T, String> + Clone + Send + Sync + 'static {}
+impl<T, F: Fn(&str) -> Result<T, String> + Clone + Send + Sync + 'static> Parse<T> for F {}
+
 /// Returns a parser of numbers from `low` to `high`, both included.
-pub fn number(
-    low: f64,
-    high: f64,
-) -> impl Fn(&str) -> Result<f64, String> + Clone + Send + Sync + 'static {
-    move |text| {
-        let range = || format!("give a number from {low:?} to {high:?}");
-        let number = text.trim().parse::<f64>().map_err(|_| range())?;
+pub fn number(low: f64, high: f64) -> impl Parse<f64> {
+    move |text: &str| {
+        let remedy = || format!("give a number from {low:?} to {high:?}");
+        let number = text.trim().parse::<f64>().map_err(|_| remedy())?;
         // A negative zero would be printed as one.
-        (low..=high).contains(&number).then_some(number + 0.0).ok_or_else(range)
+        (low..=high).contains(&number).then_some(number + 0.0).ok_or_else(remedy)
     }
 }
 
-/// A range with this many values or more is taken for a mistake.
+/// A range with more values is taken for a mistake.
 const MOST_VALUES: f64 = 1e5;
 
 /// Several numbers, which are one value of the command line.
@@ -25,28 +27,22 @@ pub type Values = Arc<[f64]>;
 ///
 /// A range A..B:STEP is A + i·STEP, rounded to the decimals of A and STEP, so that 0.1..0.2:0.02
 /// holds the same double 0.12 as a list does; B belongs to it when it is hit within STEP/1000.
-pub fn numbers(
-    low: f64,
-    high: f64,
-) -> impl Fn(&str) -> Result<Values, String> + Clone + Send + Sync + 'static {
-    fewer_numbers(MOST_VALUES, low, high)
+pub fn numbers(low: f64, high: f64) -> impl Parse<Values> {
+    numbers_up_to(MOST_VALUES, low..=high)
 }
 
-/// Returns a parser like that of [`numbers`], for ranges of fewer than `most` numbers.
-fn fewer_numbers(
-    most: f64,
-    low: f64,
-    high: f64,
-) -> impl Fn(&str) -> Result<Values, String> + Clone + Send + Sync + 'static {
-    move |text| {
-        let number =
-            |text: &str| number(low, high)(text).map_err(|error| format!("{text:?}: {error}"));
+/// Returns a parser like that of [`numbers`], for ranges of at most `most` numbers.
+fn numbers_up_to(most: f64, bounds: RangeInclusive<f64>) -> impl Parse<Values> {
+    let parser = number(*bounds.start(), *bounds.end());
+    move |text: &str| {
+        let number = |text: &str| parser(text).map_err(|error| format!("{text:?}: {error}"));
         let Some((from, rest)) = text.split_once("..") else {
             return text.split(',').map(number).collect();
         };
         let (to, step) = rest.split_once(':').ok_or("the range has no step; write A..B:STEP")?;
         let [a, b, h] = [number(from)?, number(to)?, number(step)?];
         let steps = ((b - a) / h + 1e-3).floor();
+        // The range has one number more than steps.
         if !(0.0..most).contains(&steps) {
             return Err(format!(
                 "write a range of 1 to {most} values, the smaller end first: A..B:STEP"
@@ -67,21 +63,20 @@ fn fewer_numbers(
 #[derive(Clone, Debug)]
 pub enum Times {
     /// Once in each period of the forcing.
-    Period,
+    OncePerPeriod,
     Values(Values),
 }
 
-/// Returns a parser of times up to `latest` that rise, as many as memory holds, or `period`.
-pub fn times(
-    latest: f64,
-) -> impl Fn(&str) -> Result<Times, String> + Clone + Send + Sync + 'static {
-    move |text| {
+/// Returns a parser of times up to `latest` that rise or stay, as many as memory holds, or of
+/// `period`.
+pub fn times(latest: f64) -> impl Parse<Times> {
+    move |text: &str| {
         if text == "period" {
-            return Ok(Times::Period);
+            return Ok(Times::OncePerPeriod);
         }
-        let times = fewer_numbers(1e15, 0.0, latest)(text)?;
-        let rise = times.is_sorted();
-        rise.then_some(Times::Values(times)).ok_or("the times fall; give rising ones".into())
+        let times = numbers_up_to(1e15, 0.0..=latest)(text)?;
+        let is_rising = times.is_sorted();
+        is_rising.then_some(Times::Values(times)).ok_or("the times fall; give rising ones".into())
     }
 }
 

@@ -101,7 +101,7 @@ type Cell = fn(&Row) -> String;
 const COLUMNS: [(&str, &str, Cell); 18] = [
     ("sigma", "standard deviation of the amplitudes", |row| shortest(row.point.sigma)),
     ("realisations", "chains drawn", |row| row.ensemble.realisations.to_string()),
-    ("kept", "those with an impact in the window", |row| row.point.kept.to_string()),
+    ("kept", "those with an impact in the window", |row| row.point.active.to_string()),
     ("rejected", "those whose start overlaps", |row| row.counts.rejected.to_string()),
     ("mean_distinct", "different gaps with an impact in the window, mean of the kept", |row| {
         value(row.point.mean)
@@ -220,8 +220,8 @@ fn rows(ensemble: Ensemble, progress: &Progress) -> Result<Vec<Vec<String>>, Fai
     let largest = ensemble.chain.gaps();
     for (&sigma, counts) in ensemble.sigmas.iter().zip(&counts) {
         warn_of_doubts(ensemble, sigma, counts);
-        for (window, &protocol) in ensemble.protocols.iter().enumerate() {
-            let point = RisePoint::new(sigma, counts, Column { window, largest });
+        for (window_index, &protocol) in ensemble.protocols.iter().enumerate() {
+            let point = RisePoint::new(sigma, counts, Column { window_index, largest });
             let row = Row { ensemble, counts, point, protocol };
             rows.push(COLUMNS.map(|(.., cell)| cell(&row)).into());
         }

@@ -30,7 +30,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
         let message = format!("{option}: only the method certified has states; leave it out");
         return Err(Failure::input(message));
     }
-    if matches!(args.at, Some(Times::Period)) && args.until.is_none() {
+    if matches!(args.at, Some(Times::OncePerPeriod)) && args.until.is_none() {
         return Err(Failure::input("--at: period has no end; give --until"));
     }
     if args.save.as_deref() == Some(Path::new("-")) {
@@ -39,9 +39,9 @@ pub fn run(args: Args) -> Result<(), Failure> {
     if let Some(path) = &args.save {
         // A long run is not made for a file that cannot be written; if it is ended, none is left.
         let is_new = !path.exists();
-        let opened = File::options().append(true).create(true).open(path);
-        let removed = || if is_new { std::fs::remove_file(path) } else { Ok(()) };
-        opened.and_then(|_| removed()).map_err(|error| one::unsaved(path, &error))?;
+        let file = File::options().append(true).create(true).open(path);
+        let remove = || if is_new { std::fs::remove_file(path) } else { Ok(()) };
+        file.and_then(|_| remove()).map_err(|error| one::unsaved(path, &error))?;
     }
     let start = args.from.as_deref().map(saved).transpose()?;
     let first_sample = match &args.at {
@@ -92,21 +92,21 @@ pub fn run(args: Args) -> Result<(), Failure> {
 
 /// Reads the state that `--save` wrote.
 fn saved(path: &Path) -> Result<State, Failure> {
-    let refused = |error: String| {
+    let refusal = |error: String| {
         let path = path.display();
         let error = one_line(&error, 1000);
         Failure::input(format!("--from: {path}: {error}; give a file that --save wrote"))
     };
     let text = File::open(path).and_then(input::read_from);
-    serde_json::from_str(&text.map_err(|error| refused(error.to_string()))?)
-        .map_err(|error| refused(error.to_string()))
+    serde_json::from_str(&text.map_err(|error| refusal(error.to_string()))?)
+        .map_err(|error| refusal(error.to_string()))
 }
 
 /// Starts the runs of all scenarios, and hands on where their parts come from.
 fn start_all(job: &Arc<Job>, queue: &SyncSender<Receiver<Part>>) {
-    let piped = job.args.scenario == Path::new("-");
+    let is_stdin = job.args.scenario == Path::new("-");
     let name =
-        if piped { "standard input".into() } else { job.args.scenario.display().to_string() };
+        if is_stdin { "standard input".into() } else { job.args.scenario.display().to_string() };
     if let Err(error) = read_all(job, &name, queue) {
         let failure = format!("{name}: {error}; give a scenario, see `trace --help`");
         let (sender, parts) = sync_channel(1);

@@ -25,7 +25,8 @@ pub const fn ensembles(
     Experiment { name, own, reads: &[], parameters, how: Cut(title, CUTTING), tables }
 }
 
-pub const CUTTING: Cutting<Vec<Ensemble>, Counts, Vec<Counted>> = Cutting { rows, part, join };
+pub const CUTTING: Cutting<Vec<Ensemble>, Counts, Vec<Counted>> =
+    Cutting { rows: unit_rows, part, join };
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Counted {
@@ -48,18 +49,18 @@ pub struct RunTotals {
 
 impl Counted {
     /// Returns the curve of a window, or `None` if it was not counted.
-    pub fn curve(&self, transient: f64, window: f64) -> Option<&Curve> {
-        self.curves.iter().find(|curve| curve.protocol == Protocol { transient, window })
+    pub fn find_curve(&self, protocol: Protocol) -> Option<&Curve> {
+        self.curves.iter().find(|curve| curve.protocol == protocol)
     }
 
     /// Returns the curve of the first window.
-    pub fn first(&self) -> &Curve {
+    pub fn first_curve(&self) -> &Curve {
         &self.curves[0]
     }
 
     /// Lists the rows of the first window with few overlapping starts.
     pub fn comparable(&self) -> impl Iterator<Item = &RisePoint> {
-        let both = self.first().rows.iter().zip(&self.runs);
+        let both = self.first_curve().rows.iter().zip(&self.runs);
         let few = both.filter(|(row, runs)| self.ensemble.is_comparable(row.sigma, runs.rejected));
         few.map(|(row, _)| row)
     }
@@ -71,7 +72,7 @@ fn cases(ensembles: &[Ensemble]) -> impl Iterator<Item = (&Ensemble, f64)> {
 }
 
 /// Returns a row of work for each σ of each ensemble.
-pub fn rows(ensembles: &Vec<Ensemble>) -> Vec<UnitRow> {
+pub fn unit_rows(ensembles: &Vec<Ensemble>) -> Vec<UnitRow> {
     let row = |(one, sigma): (&Ensemble, f64)| UnitRow {
         realisations: one.realisations_at(sigma),
         weight: one.work(sigma),
@@ -99,15 +100,22 @@ pub fn part(
     Ok(unit.in_groups(together, stage, count)?.into_iter().flatten().collect())
 }
 
-/// Lists each ensemble with its counts at each σ.
-pub fn joined(
+/// An ensemble with its counts at each σ.
+pub struct EnsembleCounts {
+    pub ensemble: Ensemble,
+    pub counts: Vec<Counts>,
+}
+
+/// Joins the counts of units of work, and lists those of each ensemble.
+pub fn join_counts(
     ensembles: &[Ensemble],
     parts: Vec<Vec<Counts>>,
-) -> impl Iterator<Item = (Ensemble, Vec<Counts>)> {
+) -> impl Iterator<Item = EnsembleCounts> {
     let mut at_each = parts.into_iter().map(Counts::from_iter);
-    ensembles
-        .iter()
-        .map(move |one| (one.clone(), at_each.by_ref().take(one.sigmas.len()).collect()))
+    ensembles.iter().map(move |ensemble| EnsembleCounts {
+        ensemble: ensemble.clone(),
+        counts: at_each.by_ref().take(ensemble.sigmas.len()).collect(),
+    })
 }
 
 fn join(
@@ -115,7 +123,7 @@ fn join(
     parts: Vec<Vec<Counts>>,
     progress: &Progress,
 ) -> Result<Vec<Counted>, Error> {
-    let counted = |(one, counts): (Ensemble, Vec<Counts>)| {
+    let summarise = |EnsembleCounts { ensemble: one, counts }| {
         let totals = |(&sigma, counts): (&f64, &Counts)| RunTotals {
             sigma,
             realisations: one.realisations_at(sigma),
@@ -128,11 +136,11 @@ fn join(
         let compared: Vec<_> =
             runs.iter().map(|runs| one.is_comparable(runs.sigma, runs.rejected)).collect();
         let gaps = one.chain.gaps() as f64 / one.pieces as f64;
-        let curve = |window: usize| {
+        let curve = |window_index: usize| {
             progress.check()?;
             Ok(Curve::new(&CurveData {
-                protocol: one.protocols[window],
-                window,
+                protocol: one.protocols[window_index],
+                window_index,
                 sigmas: &one.sigmas,
                 counts: &counts,
                 compared: &compared,
@@ -140,11 +148,11 @@ fn join(
                 seed: one.seed,
             }))
         };
-        let windows = (0..one.protocols.len()).into_par_iter().with_max_len(1);
-        let curves = windows.map(curve).collect::<Result<_, Error>>()?;
+        let window_indices = (0..one.protocols.len()).into_par_iter().with_max_len(1);
+        let curves = window_indices.map(curve).collect::<Result<_, Error>>()?;
         Ok(Counted { ensemble: one, runs, curves })
     };
-    joined(ensembles, parts).map(counted).collect()
+    join_counts(ensembles, parts).map(summarise).collect()
 }
 
 /// Runs a function on each item, on all threads, and returns the results in the order of the items;
@@ -166,6 +174,6 @@ pub fn run_each<A: Send, R: Send>(
 }
 
 /// Returns the counts of the ensemble of this name, or `None` if there is none.
-pub fn find_ensemble<'a>(counted: &'a [Counted], name: &str) -> Option<&'a Counted> {
-    counted.iter().find(|one| one.ensemble.name == name)
+pub fn find_ensemble<'a>(ensembles: &'a [Counted], name: &str) -> Option<&'a Counted> {
+    ensembles.iter().find(|one| one.ensemble.name == name)
 }

@@ -8,17 +8,17 @@ use impact_chain::Start;
 pub const LENGTHS: Ensembles = ensembles("lengths", "lengths", params::lengths, tables);
 
 /// Returns the chains from rest, with their curves.
-pub fn from_rest(counted: &[Counted]) -> impl Iterator<Item = (&Counted, &Curve)> {
-    let at_rest = counted.iter().filter(|one| one.ensemble.chain.start == Start::Rest);
+pub fn from_rest(ensembles: &[Counted]) -> impl Iterator<Item = (&Counted, &Curve)> {
+    let at_rest = ensembles.iter().filter(|one| one.ensemble.chain.start == Start::Rest);
     at_rest.flat_map(|one| one.curves.iter().map(move |curve| (one, curve)))
 }
 
-pub fn tables(counted: &Vec<Counted>) -> Vec<Table> {
-    vec![rest(counted), random(counted), all(counted)]
+pub fn tables(ensembles: &Vec<Counted>) -> Vec<Table> {
+    vec![rest(ensembles), random(ensembles), all(ensembles)]
 }
 
-fn rest(counted: &[Counted]) -> Table {
-    let rows: Vec<_> = from_rest(counted).collect();
+fn rest(ensembles: &[Counted]) -> Table {
+    let rows: Vec<_> = from_rest(ensembles).collect();
     const WIDTH: &str = "from a quarter to three quarters of all gaps";
     Table::builder("lengths.rest", &rows, |row| row.0.ensemble.realisations)
         .key("masses", "1", |row| row.0.ensemble.chain.masses as f64)
@@ -30,8 +30,8 @@ fn rest(counted: &[Counted]) -> Table {
         .done()
 }
 
-fn random(counted: &[Counted]) -> Table {
-    let random = find_ensemble(counted, "random");
+fn random(ensembles: &[Counted]) -> Table {
+    let random = find_ensemble(ensembles, "random");
     let curves = random.map_or(&[][..], |one| &one.curves);
     Table::builder("lengths.random", curves, |_| random.map_or(0, |one| one.ensemble.realisations))
         .key("transient", TIME, |curve| curve.protocol.transient)
@@ -40,9 +40,9 @@ fn random(counted: &[Counted]) -> Table {
         .done()
 }
 
-fn all(counted: &[Counted]) -> Table {
+fn all(ensembles: &[Counted]) -> Table {
     const STRETCH: &str = "masses of a stretch of them that is counted like a chain";
-    let longest = counted.iter().map(|one| &one.ensemble).max_by_key(|one| one.chain.masses);
+    let longest = ensembles.iter().map(|one| &one.ensemble).max_by_key(|one| one.chain.masses);
     let stretch = longest.map(|one| (one.chain.masses / one.pieces) as f64);
     let longest = longest.map(|one| one.chain.masses as f64);
     Table::builder("lengths.all", &[()], |()| 0)

@@ -13,7 +13,7 @@ pub const ALL: &[&dyn AnyExperiment] = &[
     &super::MEASURED,
     &super::SWEEP,
     &super::SECOND_SEED,
-    &super::JUMP,
+    &super::MODE_JUMP,
     &super::PROTOCOL,
     &super::STARTS,
     &super::HORIZON,

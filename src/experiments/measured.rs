@@ -99,10 +99,8 @@ pub fn committed<T: DeserializeOwned>(session: &Session<'_>, file: &str) -> Resu
 impl Measured {
     /// Lists the rows of all sessions on a subject.
     pub fn rows_about(&self, subject: Subject) -> impl Iterator<Item = &Measurement> {
-        self.sessions
-            .iter()
-            .flat_map(|session| &session.rows)
-            .filter(move |row| row.subject == subject)
+        let rows = self.sessions.iter().flat_map(|session| &session.rows);
+        rows.filter(move |row| row.subject == subject)
     }
 
     fn rows(
@@ -189,13 +187,14 @@ impl Measurement {
 
 /// Makes the tables of times that the report quotes, with when and where they were measured.
 pub fn tables(measured: &Measured) -> Vec<Table> {
+    const HORIZON: &str = "time up to which its run of one chain is right";
+    const THOUSAND: &str = "time of one core for a thousand chains";
     // The last session of the engine and that of the methods, which may be one.
     let parts = [("engine", Subject::Engine), ("methods", Subject::Method)];
     let session = |subject: Subject| {
-        measured
-            .sessions
-            .iter()
-            .rfind(|session| session.rows.iter().any(|row| row.subject == subject))
+        let is_about =
+            |session: &&MeasuredOn| session.rows.iter().any(|row| row.subject == subject);
+        measured.sessions.iter().rfind(is_about)
     };
     let sessions: Vec<(&str, &MeasuredOn)> =
         parts.into_iter().filter_map(|(part, subject)| Some((part, session(subject)?))).collect();
@@ -223,9 +222,7 @@ pub fn tables(measured: &Measured) -> Vec<Table> {
         .text_key("program", |row| row.name.split(' ').next().unwrap_or_default().into())
         .key("n", "1", |row| row.n as f64)
         .computed_by(origin(tables))
-        .real("horizon", TIME, 4, "time up to which its run of one chain is right", |row| {
-            row.horizon_time
-        })
+        .real("horizon", TIME, 4, HORIZON, |row| row.horizon_time)
         .measured();
     let rows: Vec<&Measurement> = measured.rows_about(Subject::Method).collect();
     let methods = Table::builder("measured.methods", &rows, |row| row.chains as usize)
@@ -235,9 +232,7 @@ pub fn tables(measured: &Measured) -> Vec<Table> {
         })
         .key("sigma", SIGMA, |row| row.sigma)
         .computed_by(origin(tables))
-        .real("thousand", "s", 2, "time of one core for a thousand chains", |row| {
-            measured.thousand(row)
-        })
+        .real("thousand", "s", 2, THOUSAND, |row| measured.thousand(row))
         .real("over_engine", "1", 2, "time over the engine's", |row| row.over_engine())
         .measured();
     vec![machine.done(), impact.done(), chain.done(), methods.done()]

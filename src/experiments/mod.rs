@@ -31,7 +31,7 @@ pub use accuracy::{BIAS, RACE, SCALE, TRIALS};
 pub use branches::BRANCHES;
 pub use horizon::HORIZON;
 pub use impact_chain::rise;
-pub use jump::JUMP;
+pub use jump::MODE_JUMP;
 pub use lengths::LENGTHS;
 pub use list::{ALL, THEORY, bare};
 pub use literate::experiments::{

@@ -20,13 +20,13 @@ pub const TIME: &str = "1/omega";
 
 /// The half height of the mean of all realisations.
 pub const HALF_HEIGHT: &str = "σ where the mean of all passes half of all gaps";
-/// The half height of the mean of realisations with an impact.
+/// The half height of the mean of active realisations: those with an impact.
 pub const OF_ACTIVE: &str =
     "σ where the mean of realisations with an impact passes half of all gaps";
-/// The half height of the share of realisations with an impact.
-pub const ANY_IMPACT: &str = "σ where half of the realisations have an impact";
+/// The half height of the share of active realisations.
+pub const HALF_OF_CHAINS: &str = "σ where half of the realisations have an impact";
 
 /// Returns the half height of the mean of all realisations in the first window.
-pub fn half_height_all(counted: &Counted) -> Option<Estimate> {
-    counted.first().rise.half_height_all
+pub fn half_height_all(ensemble: &Counted) -> Option<Estimate> {
+    ensemble.first_curve().rise.half_height_all
 }

@@ -54,8 +54,8 @@ impl Run {
         let scene = scenes().into_iter().find(|other| other.id == scene)?;
         let mut cases: Vec<_> = scene.cases.iter().zip(self.trial(&scene)).collect();
         cases.sort_by(|a, b| b.0.difficulty.total_cmp(&a.0.difficulty));
-        let solved = cases.iter().take_while(|(_, outcome)| **outcome == Outcome::Right);
-        solved.last().map(|(case, _)| case.difficulty)
+        let successes = cases.iter().take_while(|(_, outcome)| **outcome == Outcome::Right);
+        successes.last().map(|(case, _)| case.difficulty)
     }
 }
 
@@ -75,18 +75,21 @@ fn complete(programs: Vec<Program>) -> Result<Vec<Program>, Error> {
 }
 
 fn tables(programs: &Vec<Program>) -> Vec<Table> {
-    let rows: Vec<(&Program, usize, &Run)> = programs
-        .iter()
-        .flat_map(|program| {
-            program.settings.iter().enumerate().map(move |(i, run)| (program, i + 1, run))
-        })
-        .collect();
+    let mut rows: Vec<(&Program, usize, &Run)> = Vec::new();
+    for program in programs {
+        rows.extend((1..).zip(&program.settings).map(|(i, run)| (program, i, run)));
+    }
     let total =
         |count: fn(&Trial) -> usize, run: &Run| run.outcomes.values().map(count).sum::<usize>();
     let share = |trial: &Trial| right(trial) as f64 / trial.len() as f64;
     let among = |run: &Run, these: &[Outcome]| {
         run.outcomes.values().flatten().filter(|outcome| these.contains(outcome)).count() as u64
     };
+    const SHARES: &str = "shares of scenes that are right, added up";
+    const GRAZE: &str = "smallest depth down to which all grazes are seen";
+    const RECONTACT: &str = "the same of gaps that reopen slowly";
+    const WARNED: &str = "cases that were refused or had a message";
+    const LATE: &str = "cases in which it passed a bound on work or time";
     let table = Table::builder("programs.all", &rows, |_| 1)
         .text_key("script", |(program, ..)| program.script.clone())
         .key("setting", "1", |(_, i, _)| *i as f64)
@@ -98,21 +101,11 @@ fn tables(programs: &Vec<Program>) -> Vec<Table> {
         .count("cases", "cases of all scenes", |(.., run)| total(Trial::len, run) as u64)
         .count("right", "cases with the expected outcome", |(.., run)| total(right, run) as u64)
         .count("scenes", "all scenes", |(.., run)| run.outcomes.len() as u64)
-        .real("by_scene", "1", 3, "shares of scenes that are right, added up", |(.., run)| {
-            run.outcomes.values().map(share).sum::<f64>()
-        })
-        .real("graze", "1", 1, "smallest depth down to which all grazes are seen", |(.., run)| {
-            run.hardest("grazing-hits")
-        })
-        .real("recontact", "1", 1, "the same of gaps that reopen slowly", |(.., run)| {
-            run.hardest("recontact")
-        })
-        .count("warned", "cases that were refused or had a message", |(.., run)| {
-            among(run, &[Outcome::Refused, Outcome::Warned])
-        })
-        .count("late", "cases in which it passed a bound on work or time", |(.., run)| {
-            among(run, &[Outcome::GaveUp])
-        })
+        .real("by_scene", "1", 3, SHARES, |(.., run)| run.outcomes.values().map(share).sum::<f64>())
+        .real("graze", "1", 1, GRAZE, |(.., run)| run.hardest("grazing-hits"))
+        .real("recontact", "1", 1, RECONTACT, |(.., run)| run.hardest("recontact"))
+        .count("warned", WARNED, |(.., run)| among(run, &[Outcome::Refused, Outcome::Warned]))
+        .count("late", LATE, |(.., run)| among(run, &[Outcome::GaveUp]))
         .real("seconds", "s", 2, "processor time of all cases", |(.., run)| {
             (!run.seconds.is_empty()).then(|| run.seconds.values().flatten().sum::<f64>())
         })

@@ -7,8 +7,8 @@ use impact_chain::rise::Rise;
 
 pub const PROTOCOL: Ensembles = ensembles("protocol", "protocol map", params::protocol, tables);
 
-pub fn tables(counted: &Vec<Counted>) -> Vec<Table> {
-    let Some(map) = find_ensemble(counted, PROTOCOL.name) else { return Vec::new() };
+pub fn tables(ensembles: &Vec<Counted>) -> Vec<Table> {
+    let Some(map) = find_ensemble(ensembles, PROTOCOL.name) else { return Vec::new() };
     let halves = map.curves.iter().filter_map(|cell| cell.rise.half_height);
     let mut halves: Vec<Estimate> = halves.collect();
     halves.sort_by(|a, b| a.value.total_cmp(&b.value));
@@ -51,6 +51,6 @@ fn cells(map: &Counted) -> Table {
         .computed_by(origin(Curve::new))
         .estimate("half_height", SIGMA, OF_ACTIVE, |cell| cell.rise.half_height)
         .estimate("half_height_all", SIGMA, HALF_HEIGHT, |cell| cell.rise.half_height_all)
-        .estimate("kept_half", SIGMA, ANY_IMPACT, |cell| cell.rise.kept_half)
+        .estimate("kept_half", SIGMA, HALF_OF_CHAINS, |cell| cell.rise.kept_half)
         .done()
 }

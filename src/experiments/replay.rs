@@ -57,12 +57,12 @@ pub struct ReplayResult {
 
 /// Returns the runs: realisations behind Fig. 3, and others that are difficult for an engine.
 pub fn runs(_: Profile) -> ReplayRuns {
-    let drawn = |sigma: f64, chain: Chain| {
+    let draw = |sigma: f64, chain: Chain| {
         let forces = Forces::Drawn { sigma, stream: "sweep".into(), seed: SEED, realisation: 0 };
         let Protocol { transient, window } = Protocol::default();
         Request { chain, forces, transient, window }
     };
-    let given = |pairs: Vec<[f64; 2]>, restitution: f64, until: f64| {
+    let give = |pairs: Vec<[f64; 2]>, restitution: f64, until: f64| {
         let chain = Chain { masses: pairs.len(), restitution, ..Chain::default() };
         Request { chain, forces: Forces::Given(pairs), transient: 0.0, window: until }
     };
@@ -71,24 +71,24 @@ pub fn runs(_: Profile) -> ReplayRuns {
     let hit_twice = vec![[2.0, 1.0], [0.0; 2], [-2.0, -1.0]];
     let third = Forces::Drawn { sigma: 0.1, stream: "sweep".into(), seed: SEED, realisation: 3 };
     // Towards the middle, not in mirror symmetry.
-    let pressed = (0..5).map(f64::from).map(|j| [3.0 * (4.0 - 2.0 * j) + 0.1 * j, 0.3 * j]);
-    let named = [
-        (&at_threshold[..], drawn(threshold, chain())),
-        ("Fig. 3 at σ = 0.05, without an impact", drawn(0.05, chain())),
-        ("Fig. 3 at σ = 0.1, realisation 3", Request { forces: third, ..drawn(0.1, chain()) }),
-        ("Fig. 3 at σ = 0.2", drawn(0.2, chain())),
-        ("Fig. 3 at σ = 0.3", drawn(0.3, chain())),
-        ("a ring", drawn(0.2, Chain { boundary: Boundary::Ring, ..chain() })),
-        ("a random start", drawn(0.16, Chain { start: Start::Random, ..chain() })),
-        ("no loss, r = 1", drawn(threshold, Chain { restitution: 1.0, ..chain() })),
-        ("no rebound, r = 0", drawn(0.3, Chain { restitution: 0.0, ..chain() })),
-        ("a thousand masses", drawn(0.16, Chain { masses: 1000, ..chain() })),
-        ("chatter: one mass comes to rest at a wall", given(vec![[5.88, -4.94]], 0.2, 20.0)),
-        ("contact: five masses are pressed together", given(pressed.collect(), 0.2, 20.0)),
-        ("ties: a mass is hit from both sides", given(hit_twice, 0.8, 100.0)),
-        ("ties: a chain is its own mirror image", given(mirrored(), 0.8, 50.0)),
+    let pairs = (0..5).map(f64::from).map(|j| [3.0 * (4.0 - 2.0 * j) + 0.1 * j, 0.3 * j]);
+    let runs = [
+        (&at_threshold[..], draw(threshold, chain())),
+        ("Fig. 3 at σ = 0.05, without an impact", draw(0.05, chain())),
+        ("Fig. 3 at σ = 0.1, realisation 3", Request { forces: third, ..draw(0.1, chain()) }),
+        ("Fig. 3 at σ = 0.2", draw(0.2, chain())),
+        ("Fig. 3 at σ = 0.3", draw(0.3, chain())),
+        ("a ring", draw(0.2, Chain { boundary: Boundary::Ring, ..chain() })),
+        ("a random start", draw(0.16, Chain { start: Start::Random, ..chain() })),
+        ("no loss, r = 1", draw(threshold, Chain { restitution: 1.0, ..chain() })),
+        ("no rebound, r = 0", draw(0.3, Chain { restitution: 0.0, ..chain() })),
+        ("a thousand masses", draw(0.16, Chain { masses: 1000, ..chain() })),
+        ("chatter: one mass comes to rest at a wall", give(vec![[5.88, -4.94]], 0.2, 20.0)),
+        ("contact: five masses are pressed together", give(pairs.collect(), 0.2, 20.0)),
+        ("ties: a mass is hit from both sides", give(hit_twice, 0.8, 100.0)),
+        ("ties: a chain is its own mirror image", give(mirrored(), 0.8, 50.0)),
     ];
-    named.map(|(name, request)| (name.to_string(), request)).into()
+    runs.map(|(name, request)| (name.to_string(), request)).into()
 }
 
 /// Returns the forces on 20 masses of which the right half mirrors the left.

@@ -7,8 +7,8 @@ use crate::params;
 pub const RESTITUTION: Ensembles =
     ensembles("restitution", "restitution", params::restitution, tables);
 
-pub fn tables(counted: &Vec<Counted>) -> Vec<Table> {
-    let table = Table::builder("restitution.curves", counted, |one| one.ensemble.realisations)
+pub fn tables(ensembles: &Vec<Counted>) -> Vec<Table> {
+    let table = Table::builder("restitution.curves", ensembles, |one| one.ensemble.realisations)
         .key("r", "1", |one| one.ensemble.chain.restitution)
         .computed_by(origin(Curve::new))
         .estimate("half_height", SIGMA, HALF_HEIGHT, half_height_all);

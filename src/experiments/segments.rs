@@ -79,9 +79,9 @@ impl Segment {
         for name in self.names() {
             again.entry(name).and_modify(|times| *times += 1).or_insert(0);
         }
-        let mut repeated: Vec<_> = again.into_iter().filter(|(_, times)| *times > 0).collect();
-        repeated.sort_by_key(|(_, times)| std::cmp::Reverse(*times));
-        repeated
+        let mut repeats: Vec<_> = again.into_iter().filter(|(_, times)| *times > 0).collect();
+        repeats.sort_by_key(|(_, times)| std::cmp::Reverse(*times));
+        repeats
     }
 
     /// Returns a segment over two periods with the impacts of the first alone.
@@ -126,8 +126,8 @@ impl Segment {
 
 pub fn tables(segments: &Segments) -> Vec<Table> {
     let [first, second] = &segments.periodic;
-    let drawn = [(5.0, &segments.fig05), (6.0, &segments.fig06)];
-    let table = Table::builder("segments.circuits", &drawn, |_| 1)
+    let figures = [(5.0, &segments.fig05), (6.0, &segments.fig06)];
+    let table = Table::builder("segments.circuits", &figures, |_| 1)
         .key("figure", "1", |(figure, _)| *figure)
         .computed_by(origin(Segment::masses_hit))
         .count("masses", "that take part", |(_, one)| one.masses_hit() as u64)
@@ -184,7 +184,7 @@ pub fn read(session: &Session<'_>) -> Result<Segments, Error> {
         })
     };
     let [fig05, fig06, first, second] = FILES.map(one);
-    let failed = |source| Error::failed("a periodic orbit", source);
+    let failure = |source| Error::failed("a periodic orbit", source);
     let [silent, at_once] = [(Start::Zero, [0.0, 0.5], 0.0), (Start::Rest, [1.0, -1.0], TRANSIENT)]
         .map(|(start, forces, from)| {
             let chain = Chain { masses: 2, start, ..Chain::default() };
@@ -192,7 +192,7 @@ pub fn read(session: &Session<'_>) -> Result<Segments, Error> {
             let forcing = forces.map(|force| [force, 0.0]).to_vec();
             Scenario::given(&chain, forcing)
                 .and_then(|pair| record(&pair, from * period, (from + 2.0) * period))
-                .map_err(failed)
+                .map_err(failure)
         });
     let (periodic, no_circuit) = ([first?, second?], [silent?, at_once?]);
     Ok(Segments { fig05: fig05?, fig06: fig06?, periodic, no_circuit })

@@ -9,13 +9,14 @@ pub const STARTS: Ensembles = ensembles("starts", "variants", params::starts, ta
 pub fn tables(variants: &Vec<Counted>) -> Vec<Table> {
     let rest = find_ensemble(variants, "rest").and_then(half_height_all);
     let less = |one: &Counted| Some(difference(half_height_all(one)?, rest?));
+    let half_height = |one: &Counted| one.first_curve().rise.half_height;
     let table = Table::builder("starts.variants", variants, |one| one.ensemble.realisations)
         .text_key("chain", |one| one.ensemble.name.clone())
         .count("realisations", "chains at each σ", |one| one.ensemble.realisations as u64)
         .chosen("forcing_frequency", "omega", "", |one| Some(one.ensemble.chain.forcing_frequency))
         .computed_by(origin(Curve::new))
         .estimate("half_height", SIGMA, HALF_HEIGHT, half_height_all)
-        .estimate("half_height_of_active", SIGMA, OF_ACTIVE, |one| one.first().rise.half_height)
+        .estimate("half_height_of_active", SIGMA, OF_ACTIVE, half_height)
         .estimate("difference", SIGMA, "half height less that from rest", less)
         .done();
     vec![table]
@@ -35,7 +36,7 @@ pub fn against_theory(results: &Results, computed: &[Table]) -> Option<Vec<Table
     let chains = find_ensemble(starts, "rest")?.ensemble.realisations;
     let table = Table::builder("starts.against_theory", &[()], |()| chains)
         .computed_by(origin(share_of_start))
-        .estimate("share", "1", SHARE, |()| share(|one| one.first().rise.half_height))
+        .estimate("share", "1", SHARE, |()| share(|one| one.first_curve().rise.half_height))
         .estimate("share_of_all", "1", "the same by the mean of all", |()| share(half_height_all));
     Some(vec![table.done()])
 }

@@ -17,23 +17,23 @@ const ABOVE: f64 = 0.2;
 const STICKING: f64 = 0.3;
 
 /// Returns the counts of the main sweep.
-pub fn main(results: &Results) -> Result<&Counted, Error> {
+pub fn main_sweep(results: &Results) -> Result<&Counted, Error> {
     find_ensemble(results.of(&SWEEP)?, SWEEP.name).ok_or(Error::NotRun(SWEEP.name))
 }
 
-fn tables(counted: &Vec<Counted>) -> Vec<Table> {
-    let Some(sweep) = find_ensemble(counted, SWEEP.name) else { return Vec::new() };
+fn tables(ensembles: &Vec<Counted>) -> Vec<Table> {
+    let Some(sweep) = find_ensemble(ensembles, SWEEP.name) else { return Vec::new() };
     let mut total = Total::default();
     sweep.runs.iter().for_each(|row| total.add(&row.total));
     let [run, rare] = [run(sweep, &total), rare(sweep, &total)];
     vec![run, rows(sweep), rise_table(sweep), modes(sweep), rare, sticking()]
 }
 
-fn of_second_seed(counted: &Vec<Counted>) -> Vec<Table> {
-    let table = Table::builder("second_seed.rise", counted, |sweep| sweep.ensemble.realisations)
+fn of_second_seed(ensembles: &Vec<Counted>) -> Vec<Table> {
+    let table = Table::builder("second_seed.rise", ensembles, |sweep| sweep.ensemble.realisations)
         .count("seed", "master seed", |sweep| sweep.ensemble.seed)
         .computed_by(origin(Curve::new))
-        .estimate("half_height", SIGMA, OF_ACTIVE, |sweep| sweep.first().rise.half_height);
+        .estimate("half_height", SIGMA, OF_ACTIVE, |sweep| sweep.first_curve().rise.half_height);
     vec![table.done()]
 }
 
@@ -41,7 +41,7 @@ const WIDTH_OF_ACTIVE: &str =
     "from a quarter to three quarters of all gaps, of the mean of realisations with an impact";
 
 fn run(sweep: &Counted, total: &Total) -> Table {
-    let (protocol, beyond) = (sweep.first().protocol, sweep.ensemble.beyond);
+    let (protocol, beyond) = (sweep.first_curve().protocol, sweep.ensemble.beyond);
     let few = beyond.and_then(|beyond| beyond.realisations);
     let failed = sweep.runs.iter().map(|runs| runs.failed as u64).sum();
     let by_engine = sweep.runs.iter().map(|runs| runs.by_engine as u64).sum();
@@ -63,14 +63,14 @@ fn run(sweep: &Counted, total: &Total) -> Table {
 
 /// Makes the table of means (of different gaps, of impacts, of masses) and shares at each σ.
 fn rows(sweep: &Counted) -> Table {
-    const KEPT: &str = "share of the realisations with an impact in the window";
-    let kept_share = |row: &RisePoint| share(row.kept as u64, row.ran as u64);
-    Table::builder("sweep.rows", &sweep.first().rows, |row| row.ran)
+    const ACTIVE: &str = "share of the realisations with an impact in the window";
+    let active_share = |row: &RisePoint| share(row.active as u64, row.ran as u64);
+    Table::builder("sweep.rows", &sweep.first_curve().rows, |row| row.ran)
         .key("sigma", SIGMA, |row| row.sigma)
         .computed_by(origin(RisePoint::new))
-        .estimate("kept", "1", KEPT, kept_share)
+        .estimate("kept", "1", ACTIVE, active_share)
         .estimate("mean_all", "1", "gaps with an impact, mean of all", |r| r.mean_all?.estimate())
-        .over(|row| row.kept)
+        .over(|row| row.active)
         .estimate("mean", "1", "gaps hit, mean of those with any", |row| row.mean?.estimate())
         .estimate("impacts", "1", "impacts, mean of those with any", |row| row.impacts?.estimate())
         .estimate("masses", "1", "masses hit, mean of those with any", |row| row.masses?.estimate())
@@ -78,15 +78,15 @@ fn rows(sweep: &Counted) -> Table {
 }
 
 fn rise_table(sweep: &Counted) -> Table {
-    let interval = sweep.first().rise.half_height.map(|half| half.interval);
-    Table::builder("sweep.rise", &[&sweep.first().rise], |_| sweep.ensemble.realisations)
+    let interval = sweep.first_curve().rise.half_height.map(|half| half.interval);
+    Table::builder("sweep.rise", &[&sweep.first_curve().rise], |_| sweep.ensemble.realisations)
         .computed_by(origin(Curve::new))
         .estimate("half_height", SIGMA, OF_ACTIVE, |rise| rise.half_height)
         .real("half_height_from", SIGMA, 4, "lower end of its interval", |_| Some(interval?[0]))
         .real("half_height_to", SIGMA, 4, "upper end of its interval", |_| Some(interval?[1]))
         .estimate("half_height_all", SIGMA, HALF_HEIGHT, |rise| rise.half_height_all)
         .estimate("onset", SIGMA, "σ where it passes a twentieth of all gaps", |rise| rise.onset)
-        .estimate("kept_half", SIGMA, ANY_IMPACT, |rise| rise.kept_half)
+        .estimate("kept_half", SIGMA, HALF_OF_CHAINS, |rise| rise.kept_half)
         .estimate("width", SIGMA, "from a tenth to nine tenths of all gaps", |rise| rise.width)
         .estimate("kept_width", SIGMA, WIDTH_OF_ACTIVE, |rise| rise.kept_width)
         .done()
@@ -94,7 +94,7 @@ fn rise_table(sweep: &Counted) -> Table {
 
 fn modes(sweep: &Counted) -> Table {
     let (sigma, interval) =
-        mode_intervals(sweep.first()).max_by_key(|(_, [low, high])| high - low).unzip();
+        mode_intervals(sweep.first_curve()).max_by_key(|(_, [low, high])| high - low).unzip();
     Table::builder("sweep.mode", &[()], |()| 0)
         .chosen("noisiest_sigma", SIGMA, "where the interval of the mode is longest", |()| sigma)
         .chosen("noisiest_from", "1", "its lower end", |()| Some(interval?[0] as f64))

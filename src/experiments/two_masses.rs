@@ -39,18 +39,18 @@ pub fn run(parameters: &TwoMassesParams, progress: &Progress) -> Result<TwoMasse
     let directions = parameters.directions.realisations;
     let stage = progress.stage("two masses", directions as u64 + 1);
     // The last direction is the worst one.
-    let drawn = (0..directions as u64).map(|index| parameters.directions.scenario(index).forcing);
-    let searched = run_each(&stage, progress, drawn.chain([WORST.to_vec()]), |forcing| {
+    let draws = (0..directions as u64).map(|index| parameters.directions.scenario(index).forcing);
+    let searches = run_each(&stage, progress, draws.chain([WORST.to_vec()]), |forcing| {
         thresholds(parameters, &forcing, progress)
     })?;
     let excess = |i: usize| {
-        let ratios = searched[..directions].iter().map(|(_, ratios)| ratios[i]);
+        let ratios = searches[..directions].iter().map(|(_, ratios)| ratios[i]);
         ratios.fold([f64::INFINITY, 0.0], |[least, most], x| [least.min(x), most.max(x)])
     };
     Ok(TwoMasses {
         parameters: parameters.clone(),
         excess: (0..parameters.times.len()).map(excess).collect(),
-        violations: searched.iter().map(|(violations, _)| violations).sum(),
+        violations: searches.iter().map(|(violations, _)| violations).sum(),
     })
 }
 
@@ -93,8 +93,8 @@ fn thresholds(
     let bound = bound(chain, forcing);
     let hits = |ratio: f64, until: f64| -> Result<bool, Error> {
         progress.check()?;
-        let scaled = forcing.iter().map(|pair| pair.map(|x| ratio * bound * x)).collect();
-        let first = Scenario::given(chain, scaled)
+        let amplitudes = forcing.iter().map(|pair| pair.map(|x| ratio * bound * x)).collect();
+        let first = Scenario::given(chain, amplitudes)
             .and_then(|scenario| Engine::new(&scenario)?.next_impact(until));
         Ok(first.map_err(|source| Error::failed("two masses", source))?.is_some())
     };

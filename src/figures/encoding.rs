@@ -14,23 +14,25 @@ pub struct Look {
     pub mark: Marker,
 }
 
-const fn look(name: &'static str, colour: RGBColor, dash: Dash, symbol: Symbol) -> Look {
-    let mark = (symbol, LARGE, Stroke::dashed(colour, THIN, dash));
-    Look { name, line: Stroke::dashed(colour, LINE, dash), mark }
+impl Look {
+    const fn new(name: &'static str, colour: RGBColor, dash: Dash, symbol: Symbol) -> Look {
+        let mark = (symbol, LARGE, Stroke::dashed(colour, THIN, dash));
+        Look { name, line: Stroke::dashed(colour, LINE, dash), mark }
+    }
+
+    pub const ACTIVE: Look = Look::new("mean of chains with an impact", RED, SOLID, Symbol::Cross);
+    pub const ALL: Look = Look::new("mean of all chains", RED, SHORT, Symbol::Ring);
+    pub const SHARE: Look = Look::new("share of chains with an impact", RED, SOLID, Symbol::Plus);
+    pub const MODE: Look = Look::new("most likely number", PURPLE, SOLID, Symbol::OpenDiamond);
+    pub const THEORY: Look = Look::new("theory, Eq. (25)", GREEN, SOLID, Symbol::Disc);
+    pub const REST: Look = Look::new("theory, from rest", GREEN, SHORT, Symbol::Ring);
+    pub const HIGHER: Look = Look::new("with higher orders", BLUE, LONG, Symbol::Disc);
+    pub const SEEDS: Look = Look::new("from seeds", INK, SOLID, Symbol::OpenSquare);
 }
 
-pub const HIT: Look = look("mean of chains with an impact", RED, SOLID, Symbol::Cross);
-pub const ALL: Look = look("mean of all chains", RED, SHORT, Symbol::Ring);
-pub const SHARE: Look = look("share of chains with an impact", RED, SOLID, Symbol::Plus);
-pub const MODE: Look = look("most likely number", PURPLE, SOLID, Symbol::OpenDiamond);
-pub const THEORY: Look = look("theory, Eq. (25)", GREEN, SOLID, Symbol::Disc);
-pub const REST: Look = look("theory, from rest", GREEN, SHORT, Symbol::Ring);
-pub const HIGHER: Look = look("with higher orders", BLUE, LONG, Symbol::Disc);
-pub const SEEDS: Look = look("from seeds", INK, SOLID, Symbol::OpenSquare);
-
 /// The labels of an axis of σ, and of half heights.
-pub const FORCING: &str = "*σ* (*d ω*^{2})";
-pub const HALF_HEIGHT: &str = "*σ*_{1/2} (*d ω*^{2})";
+pub const SIGMA_LABEL: &str = "*σ* (*d ω*^{2})";
+pub const HALF_HEIGHT_LABEL: &str = "*σ*_{1/2} (*d ω*^{2})";
 
 /// Makes the axis of a number of the `n` gaps, up to a little more, with a number every `step`.
 pub fn gaps_axis(n: usize, step: f64) -> Axis {

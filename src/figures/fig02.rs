@@ -1,20 +1,17 @@
 //! Draws Fig. 2: the most likely number of impacts against σ, simulated, and the distributions
 //! before, at and after its jump.
 
-use super::encoding::{MODE, gaps_axis};
+use super::encoding::{Look, gaps_axis};
 use super::prelude::*;
 use super::simulated::*;
-use crate::experiments::{JUMP, Results};
+use crate::experiments::{MODE_JUMP, Results};
 use crate::params::Protocol;
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
-    let jumps = results.of(&JUMP)?;
+    let jumps = results.of(&MODE_JUMP)?;
     let n = jumps.gaps();
-    let row = format!(
-        "jump.windows[transient={},window={}]",
-        Protocol::default().transient,
-        Protocol::default().window
-    );
+    let Protocol { transient, window } = Protocol::default();
+    let row = format!("jump.windows[transient={transient},window={window}]");
     let at = |column: &str| results.number(&format!("{row}.{column}")).ok();
     let (place, single) = (at("place"), at("single_place"));
     let sheet = Sheet::new(8550);
@@ -26,10 +23,11 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     // Where a single gap or all gaps are the most likely number there is no interval.
     let bars = peaks.iter().filter(|(sigma, peak)| modes.contains(&(*sigma, peak.value)));
     let bars: Vec<_> = bars.map(|(s, peak)| (*s, peak.interval[0], peak.interval[1])).collect();
-    panel.bars(MODE.name, &bars, 40, INTERVAL)?;
-    printed(&panel, 1.02 * n as f64)?;
-    panel.markers(MODE.name, &modes, MODE.mark)?;
-    panel.label(&format!("{}: all gaps", MODE.name), (panel.x.hi, n as f64), (-1, 2), PURPLE)?;
+    panel.bars(Look::MODE.name, &bars, 40, INTERVAL)?;
+    draw_printed_threshold(&panel, 1.02 * n as f64)?;
+    panel.markers(Look::MODE.name, &modes, Look::MODE.mark)?;
+    let text = format!("{}: all gaps", Look::MODE.name);
+    panel.label(&text, (panel.x.hi, n as f64), (-1, 2), PURPLE)?;
     let guide = Stroke::dashed(PURPLE, THIN, SHORT);
     if let (Some(place), Some(bar)) = (place, bars.last()) {
         panel.guide("jump", &[(place, bar.2), (place, n as f64)], guide)?;

@@ -1,7 +1,7 @@
 //! Draws Fig. 3: the expected number of impacts (of different gaps) against σ, simulated, and how
 //! many runs it rests on.
 
-use super::encoding::{ALL, HIT, SHARE, gaps_axis};
+use super::encoding::{Look, gaps_axis};
 use super::prelude::*;
 use super::simulated::*;
 use crate::experiments::Results;
@@ -15,12 +15,13 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let panel = sheet.lettered("(a)", MAIN, x, y)?.outside(Outside::Cut);
     let rows = results.table("sweep.rows")?;
     let swept = |column| rows.curve(&[], "sigma", column);
-    let (all, means) = (swept("mean_all")?, means(results)?);
-    printed(&panel, comparison::interpolate(&means, printed_threshold()).unwrap_or(0.0))?;
-    panel.curve(ALL.name, &all, ALL.line)?;
-    panel.estimates(HIT.name, &rows.series(&[], "sigma", "mean")?, HIT.mark)?;
-    panel.label(HIT.name, (panel.x.hi, n as f64), (-1, 3), RED)?;
-    panel.label(ALL.name, reaches(&all, 7.0), (3, 0), RED)?;
+    let (all, means) = (swept("mean_all")?, simulated_points(results)?);
+    let mean = comparison::interpolate(&means, printed_threshold());
+    draw_printed_threshold(&panel, mean.unwrap_or(0.0))?;
+    panel.curve(Look::ALL.name, &all, Look::ALL.line)?;
+    panel.estimates(Look::ACTIVE.name, &rows.series(&[], "sigma", "mean")?, Look::ACTIVE.mark)?;
+    panel.label(Look::ACTIVE.name, (panel.x.hi, n as f64), (-1, 3), RED)?;
+    panel.label(Look::ALL.name, first_point_above(&all, 7.0), (3, 0), RED)?;
     if let Some(half) = half_height {
         let level = n as f64 / 2.0;
         let guide = Stroke::dashed(GREY, HAIR, DOTTED);
@@ -33,8 +34,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let share = sheet.lettered("(b)", Frame::new(1200, 5200, 8150, 6650), x, y)?;
     let share = share.outside(Outside::Cut);
     let fraction = swept("kept")?;
-    share.marked_curve(SHARE.name, &fraction, SHARE.mark.2, SHARE.mark)?;
-    share.label(SHARE.name, reaches(&fraction, 0.5), (5, 0), RED)?;
+    share.marked_curve(Look::SHARE.name, &fraction, Look::SHARE.mark.2, Look::SHARE.mark)?;
+    share.label(Look::SHARE.name, first_point_above(&fraction, 0.5), (5, 0), RED)?;
 
     let description = describe!(
         "(a) Mean number of different gaps that impact against σ, simulated with {} masses: of the realisations with an impact \

@@ -53,11 +53,9 @@ fn motion(panel: &Panel, segment: &Segment, length: usize) -> Drawn {
     }
     panel.level("wall", 0.0, Stroke::solid(INK, LINE))?;
     panel.level("wall", walls, Stroke::solid(INK, LINE))?;
-    let paths: Vec<Vec<(f64, f64)>> = segment
-        .positions
-        .iter()
-        .map(|path| segment.times.iter().zip(path).map(|(t, x)| (t - from, x / d)).collect())
-        .collect();
+    let times = || segment.times.iter().map(|time| time - from);
+    let paths = segment.positions.iter().map(|path| times().zip(path.iter().map(|x| x / d)));
+    let paths: Vec<Vec<(f64, f64)>> = paths.map(Iterator::collect).collect();
     for (j, points) in paths.iter().enumerate() {
         let (colour, dash) = MASSES[j % MASSES.len()];
         panel.curve(&format!("mass {}", j + 1), points, Stroke::dashed(colour, LINE, dash))?;

@@ -7,7 +7,7 @@ use crate::params::{DISTRIBUTION_P, VERTICES as N};
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(5150);
-    let mut seen = Vec::new();
+    let mut sentences = Vec::new();
     let top = DISTRIBUTION_P.into_iter().map(|p| largest(&simple(p))).fold(0.0, f64::max);
     let x = Axis::linear(0.0, N as f64 + 1.0, 20.0, 4, "*k*");
     let y = Axis::up_to(top, "*P*(*X* = *k*)");
@@ -30,12 +30,12 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         }
         panel.label(&format!("{letter} *p* = {p}"), place, side[0], INK)?;
         panel.label(&format!("*k*^{{∗}} = {k_star}, *μ* = {mean}"), place, side[1], INK)?;
-        seen.push(format!("{letter} p = {p}: mean {mean}"));
+        sentences.push(format!("{letter} p = {p}: mean {mean}"));
     }
     let description = describe!(
         "Columns over k = 1 … {N}: the probability of k different impacts for simple circuits, N = {N}. With p \
          the weight moves from single impacts to the whole system. {}.",
-        seen.join("; ")
+        sentences.join("; ")
     );
     Ok(sheet.finish("Distribution of the number of impacts", description))
 }

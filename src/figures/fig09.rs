@@ -1,6 +1,6 @@
 //! Draws Fig. 9: (a) the most likely and (b) the expected number of impacts against p.
 
-use super::encoding::{MODE, THEORY};
+use super::encoding::Look;
 use super::prelude::*;
 use crate::experiments::Results;
 use crate::experiments::theory::law::{means, steps};
@@ -15,15 +15,15 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let frame = Frame::new(1150, 430, 8150, 3430);
     let mode = sheet.lettered("(a)", frame, p().without_numbers(), y("*k*^{∗}"))?;
     let frame = Frame::new(1150, 4130, 8150, 7130);
-    let expected = sheet.lettered("(b)", frame, p(), y("*μ*"))?.outside(Outside::Cut);
+    let mean = sheet.lettered("(b)", frame, p(), y("*μ*"))?.outside(Outside::Cut);
 
     let p_jump = results.number("theory.jump.p_jump")?;
     let jump = results.number("theory.jump.k_after")?;
     most_likely([p_jump, jump], &mode)?;
     let text = format!("from 1 to {jump} at *p* = {}", short(p_jump, 4));
     mode.label(&text, (p_jump, jump / 2.0), (2, 0), INK)?;
-    expected.curve("mean", &means(), THEORY.line)?;
-    expected.label("*μ* → 1 as *p* → 0", (expected.x.lo, 1.0), (3, -2), INK)?;
+    mean.curve("mean", &means(), Look::THEORY.line)?;
+    mean.label("*μ* → 1 as *p* → 0", (mean.x.lo, 1.0), (3, -2), INK)?;
 
     let description = describe!(
         "Against the edge probability p on a logarithmic axis, for N = {N}: (a) the most likely number of impacts is 1 up \
@@ -42,8 +42,8 @@ fn most_likely([p_jump, jump]: [f64; 2], panel: &Panel) -> Drawn {
         stairs.push((p, k_star as f64));
     }
     stairs.extend(stairs.last().map(|last| (1.0, last.1)));
-    panel.curve("most likely number, 1", &[(panel.x.lo, 1.0), (p_jump, 1.0)], MODE.line)?;
-    panel.curve("most likely number", &stairs, MODE.line)?;
+    panel.curve("most likely number, 1", &[(panel.x.lo, 1.0), (p_jump, 1.0)], Look::MODE.line)?;
+    panel.curve("most likely number", &stairs, Look::MODE.line)?;
     panel.guide("jump", &[(p_jump, 1.0), (p_jump, jump)], Stroke::dashed(PURPLE, THIN, DOTTED))?;
     let look = |mark| (mark, 50, Stroke::solid(PURPLE, THIN));
     panel.markers("before the jump", &[(p_jump, 1.0)], look(Symbol::Disc))?;

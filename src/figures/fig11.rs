@@ -1,9 +1,9 @@
 //! Draws Fig. 11: the impact probability p against the standard deviation σ of the forcing; on a
 //! logarithmic axis as well, which the paper does not have.
 
-use super::encoding::{FORCING, REST, THEORY};
+use super::encoding::{Look, SIGMA_LABEL};
 use super::prelude::*;
-use super::simulated::reaches;
+use super::simulated::first_point_above;
 use crate::experiments::Results;
 
 /// Lowest decade of the logarithmic panel.
@@ -15,7 +15,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let column = |name| theory.curve(&[], "sigma", name);
     let (from_rest, p) = (column("p_rest")?, column("p")?);
     let end = p.last().map_or(0.4, |point| point.0);
-    let sigma = || Axis::linear(0.0, end, 0.1, 5, FORCING);
+    let sigma = || Axis::linear(0.0, end, 0.1, 5, SIGMA_LABEL);
     let y = Axis::up_to(p.iter().chain(&from_rest).map(|p| p.1).fold(0.0, f64::max), "*p*");
     let linear = Frame::new(1300, 430, 8150, 3430);
     let linear = sheet.lettered("(a)", linear, sigma().without_numbers(), y)?;
@@ -25,12 +25,12 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
 
     // Both vanish with σ.
     let from_zero = |points: &[(f64, f64)]| [&[(0.0, 0.0)], points].concat();
-    linear.curve("p for a start from rest", &from_zero(&from_rest), REST.line)?;
-    linear.curve("p of Eq. (25)", &from_zero(&p), THEORY.line)?;
-    decades.curve("p for a start from rest", &from_rest, REST.line)?;
-    decades.curve("p of Eq. (25)", &p, THEORY.line)?;
-    linear.label(REST.name, reaches(&from_rest, 0.35), (-3, 0), GREEN)?;
-    linear.label(THEORY.name, reaches(&p, 0.2), (2, 0), GREEN)?;
+    linear.curve("p for a start from rest", &from_zero(&from_rest), Look::REST.line)?;
+    linear.curve("p of Eq. (25)", &from_zero(&p), Look::THEORY.line)?;
+    decades.curve("p for a start from rest", &from_rest, Look::REST.line)?;
+    decades.curve("p of Eq. (25)", &p, Look::THEORY.line)?;
+    linear.label(Look::REST.name, first_point_above(&from_rest, 0.35), (-3, 0), GREEN)?;
+    linear.label(Look::THEORY.name, first_point_above(&p, 0.2), (2, 0), GREEN)?;
 
     let (level, bottom) = (results.number("theory.jump.p_jump")?, decades.y.lo);
     let jump = results.number("theory.relation.sigma_jump")?;

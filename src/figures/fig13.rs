@@ -63,10 +63,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let y = Axis::decades(-12, 0, 2, PROBABILITY).between(3e-10, 1.5 * largest(&five(p)));
         let frame = Frame::new(1200, top, 5300, top + 2150);
         let panel = draw_panel(&sheet, letter, frame, x, y, p)?;
-        let ends = contributions(p)
-            .into_iter()
-            .zip(CLASSES)
-            .map(|(class, look)| (format!("{}, {}", look.0, look.1), over_k(&class), look.2));
+        let ends = contributions(p).into_iter().zip(CLASSES);
+        let ends = ends.map(|(y, look)| (format!("{}, {}", look.0, look.1), over_k(&y), look.2));
         panel.label_ends(&ends.collect::<Vec<_>>())?;
     }
 

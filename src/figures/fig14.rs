@@ -1,6 +1,6 @@
 //! Draws Fig. 14: simple and higher-order distributions become alike as p grows.
 
-use super::encoding::{HIGHER, THEORY};
+use super::encoding::Look;
 use super::prelude::*;
 use crate::experiments::Results;
 use crate::experiments::theory::higher::five;
@@ -9,7 +9,7 @@ use crate::params::{CONVERGENCE_P, VERTICES as N};
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(6950);
-    let mut seen = Vec::new();
+    let mut sentences = Vec::new();
     let top = largest(&CONVERGENCE_P.map(|p| largest(&five(p)).max(largest(&simple(p)))));
     for (i, at) in CONVERGENCE_P.into_iter().enumerate() {
         let x = Axis::linear(0.0, N as f64 + 1.0, 20.0, 2, "*k*");
@@ -20,8 +20,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let head = format!("{} *p* = {p}", LETTERS[i]);
         let panel = sheet.lettered(&head, frame, x, y)?.with_suffix(LETTERS[i]);
         for (name, values, side, stroke) in [
-            ("simple circuits", simple(at), -1, THEORY.line),
-            ("higher orders", five(at), 1, HIGHER.line),
+            ("simple circuits", simple(at), -1, Look::THEORY.line),
+            ("higher orders", five(at), 1, Look::HIGHER.line),
         ] {
             let (points, peak) = (over_k(&values), largest(&values));
             panel.curve(name, &points, stroke)?;
@@ -33,12 +33,12 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
             panel.label(&format!("*k*^{{∗}} = {k_star}"), at, (side, -1), stroke.colour)?;
         }
         let distance = short(results.number(&format!("theory.classes[p={at}].variation"))?, 3);
-        seen.push(format!("{} p = {p}: total variation distance {distance}", LETTERS[i]));
+        sentences.push(format!("{} p = {p}: total variation distance {distance}", LETTERS[i]));
     }
     let description = describe!(
         "Probability of k different impacts, N = {N}, of simple circuits and with higher orders (broken line). The two curves \
          lie apart in (a) and nearly on each other in (b). {}.",
-        seen.join("; ")
+        sentences.join("; ")
     );
     Ok(sheet.finish("Simple and higher-order distributions converge", description))
 }

@@ -1,6 +1,6 @@
 //! Draws Fig. 15: as Fig. 12, with higher orders, and their change, which the paper does not show.
 
-use super::encoding::{HIGHER, HIT, Look, THEORY, gaps_axis};
+use super::encoding::{Look, gaps_axis};
 use super::prelude::*;
 use super::simulated::*;
 use crate::experiments::Results;
@@ -11,15 +11,15 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let threshold = printed_threshold();
     let (x, y) = (sigma_axis().without_numbers(), gaps_axis(n, 20.0));
     let panel = sheet.lettered("(a)", MAIN, x, y)?.outside(Outside::Cut);
-    let (simple, higher) = (curve(results, "simple")?, curve(results, "higher")?);
-    panel.curve("simple circuits", &simple, THEORY.line)?;
-    panel.curve("five classes", &higher, HIGHER.line)?;
-    let simulated = means(results)?;
-    printed(&panel, 0.6 * n as f64)?;
-    panel.markers(HIT.name, &simulated, HIT.mark)?;
-    panel.label("simulation", reaches(&simulated, 0.3 * n as f64), (-2, 0), RED)?;
+    let (simple, higher) = (theory_points(results, "simple")?, theory_points(results, "higher")?);
+    panel.curve("simple circuits", &simple, Look::THEORY.line)?;
+    panel.curve("five classes", &higher, Look::HIGHER.line)?;
+    let simulation = simulated_points(results)?;
+    draw_printed_threshold(&panel, 0.6 * n as f64)?;
+    panel.markers(Look::ACTIVE.name, &simulation, Look::ACTIVE.mark)?;
+    panel.label("simulation", first_point_above(&simulation, 0.3 * n as f64), (-2, 0), RED)?;
     // The two lines nearly coincide, so a key names them.
-    for (Look { name, line, .. }, high) in [(HIGHER, 0.5), (THEORY, 0.4)] {
+    for (Look { name, line, .. }, high) in [(Look::HIGHER, 0.5), (Look::THEORY, 0.4)] {
         let sample = [0.17, 0.185].map(|sigma| (sigma, high * n as f64));
         panel.guide("key", &sample, line)?;
         panel.label(name, sample[1], (1, 0), line.colour)?;
@@ -28,18 +28,19 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         higher.iter().zip(&simple).map(|(more, less)| (more.0, more.1 - less.1)).collect();
     let most = change.iter().map(|point| point.1).fold(0.0, f64::max);
     let y = Axis::linear(0.0, 1.1 * most, 5.0, 5, "gaps added");
-    let added = sheet.lettered("(b)", Frame::new(1200, 5200, 8150, 7000), sigma_axis(), y)?;
-    let added = added.outside(Outside::Cut);
-    added.curve("difference of the theories", &change, HIGHER.line)?;
-    added.label("by the higher orders", (reaches(&change, most).0, 0.7 * most), (5, 0), BLUE)?;
+    let difference = sheet.lettered("(b)", Frame::new(1200, 5200, 8150, 7000), sigma_axis(), y)?;
+    let difference = difference.outside(Outside::Cut);
+    difference.curve("difference of the theories", &change, Look::HIGHER.line)?;
+    let (peak, _) = first_point_above(&change, most);
+    difference.label("by the higher orders", (peak, 0.7 * most), (5, 0), BLUE)?;
 
     let description = describe!(
         "(a) Expected number of impacts against σ: crosses for the simulation, {} at σ = {threshold}; lines for the theory with simple \
          circuits only, {} there, and with higher orders, {}. (b) The higher orders add at most {} gaps, far less than the \
          simulation is ahead; beyond the rise the lines cannot be told apart.",
-        at(&simulated, threshold),
-        at(&simple, threshold),
-        at(&higher, threshold),
+        value_in_words(&simulation, threshold),
+        value_in_words(&simple, threshold),
+        value_in_words(&higher, threshold),
         short(most, 3),
     );
     Ok(sheet.finish("Simulation against both theories", description))

@@ -32,18 +32,19 @@ mod s10;
 mod s11;
 mod simulated;
 
+// And with them the prelude that the figures take as `super::prelude`.
 pub use literate::figures::*;
 
 use crate::experiments::{
-    BIAS, BRANCHES, JUMP, MEASURED, NUCLEATION, PROGRAMS, PROTOCOL, RACE, SCALE, SEEDS, SEGMENTS,
-    SPACE_TIME, SWEEP, THEORY, TRIALS,
+    BIAS, BRANCHES, MEASURED, MODE_JUMP, NUCLEATION, PROGRAMS, PROTOCOL, RACE, SCALE, SEEDS,
+    SEGMENTS, SPACE_TIME, SWEEP, THEORY, TRIALS,
 };
 use literate::FigureSpec;
 
 /// All figures: first the paper's, then those of this edition.
 pub const ALL: [FigureSpec; 26] = [
     FigureSpec::new("fig01", &[], |_| fig01::draw()),
-    FigureSpec::new("fig02", &[&JUMP], fig02::draw),
+    FigureSpec::new("fig02", &[&MODE_JUMP], fig02::draw),
     FigureSpec::new("fig03", &[&SWEEP], fig03::draw),
     FigureSpec::new("fig04", &[], |_| fig04::draw()),
     FigureSpec::new("fig05", &[&SEGMENTS], |results| fig05::draw(results.of(&SEGMENTS)?)),

@@ -7,15 +7,24 @@ use crate::experiments::accuracy::race::Race;
 use crate::experiments::measured::Subject;
 use crate::params::{MethodName, Setting};
 
-/// A point of a setting, with its interval if it has one.
-pub type Point = (f64, f64, Option<[f64; 2]>);
+/// The point of a setting, with its interval in y if it has one.
+pub struct Point {
+    pub setting: Setting,
+    pub x: f64,
+    pub y: f64,
+    pub interval: Option<[f64; 2]>,
+}
 
-/// Points of methods, with their settings.
-pub type Curves = Vec<(MethodName, Vec<(Setting, Point)>)>;
+/// Points of methods.
+pub type Curves = Vec<(MethodName, Vec<Point>)>;
 
 /// Where the name of a method stands: next to which of its settings, with an offset to the right
 /// and down in millimetres.
-pub type Place = (MethodName, usize, (i32, i32));
+pub struct Place {
+    pub method: MethodName,
+    pub setting: usize,
+    pub offset: (i32, i32),
+}
 
 /// Makes the axis of times over the engine's, up to `longest`.
 pub fn time_axis(longest: f64) -> Axis {
@@ -24,6 +33,7 @@ pub fn time_axis(longest: f64) -> Axis {
         .column("measured time over the engine's (1)")
 }
 
+/// The last setting of a method, however many it has.
 pub const FINEST: usize = usize::MAX;
 
 /// Draws the settings of each method as marks on a line, and the names of some next to their marks.
@@ -33,19 +43,21 @@ pub fn draw(panel: &Panel, curves: &Curves, places: &[Place]) -> Drawn {
         let look = encoding::method(*method);
         // Thin lines of several colours would not be told apart.
         let bar = Stroke::solid(if *method == MethodName::Certified { RED } else { GREY }, HAIR);
-        for (setting, (x, y, interval)) in points {
+        for Point { setting, x, y, interval } in points {
             if let Some([low, high]) = interval {
                 panel.bars(&setting.name(), &[(*x, *low, *high)], 0, bar)?;
             }
             panel.record(&setting.name(), [(*x, *y)]);
         }
-        let places: Vec<_> = points.iter().map(|(_, (x, y, _))| (*x, *y)).collect();
+        let places: Vec<_> = points.iter().map(|point| (point.x, point.y)).collect();
         let line = Stroke { width: THIN, ..look.2 };
         panel.unrecorded().marked_curve(method.title(), &places, line, look)?;
     }
-    for (method, setting, offset) in places {
+    for Place { method, setting, offset } in places {
         let curve = curves.iter().find(|curve| curve.0 == *method).map(|curve| &curve.1);
-        if let Some((_, (x, y, _))) = curve.and_then(|curve| curve.get(*setting).or(curve.last())) {
+        if let Some(Point { x, y, .. }) =
+            curve.and_then(|curve| curve.get(*setting).or(curve.last()))
+        {
             let inside = (*x, y.clamp(panel.y.lo, panel.y.hi));
             let colour = encoding::method(*method).2.colour;
             let colour = if colour == GREY { INK } else { colour };
@@ -83,16 +95,16 @@ pub fn over_engine(race: &Race, measured: &Measured, setting: Setting) -> Option
 
 /// Points of each method that has some, in the order of [`MethodName::ALL`], without chains side by
 /// side, whose times are not those of one.
-pub fn by_method<T>(rows: &[T], point: impl Fn(&T) -> Option<(Setting, Point)>) -> Curves {
-    let is_alone = |at: &(Setting, Point)| at.0.method != MethodName::VerletAbreast;
+pub fn by_method<T>(rows: &[T], point: impl Fn(&T) -> Option<Point>) -> Curves {
+    let is_alone = |point: &Point| point.setting.method != MethodName::VerletAbreast;
     all_by_method(rows, |row| point(row).filter(is_alone))
 }
 
 /// Points of each method that has some, chains side by side included.
-pub fn all_by_method<T>(rows: &[T], point: impl Fn(&T) -> Option<(Setting, Point)>) -> Curves {
+pub fn all_by_method<T>(rows: &[T], point: impl Fn(&T) -> Option<Point>) -> Curves {
     let points_of = |method: MethodName| {
-        let at = rows.iter().filter_map(&point).filter(|at| at.0.method == method);
-        (method, at.collect::<Vec<_>>())
+        let own = rows.iter().filter_map(&point).filter(|point| point.setting.method == method);
+        (method, own.collect::<Vec<_>>())
     };
     MethodName::ALL.into_iter().map(points_of).filter(|(_, points)| !points.is_empty()).collect()
 }
@@ -100,16 +112,16 @@ pub fn all_by_method<T>(rows: &[T], point: impl Fn(&T) -> Option<(Setting, Point
 /// Returns the engine and other programs on one chain of `masses` masses: for each setting the time
 /// of an impact over the engine's, and the time up to which the run is right, at most its end.
 pub fn programs(measured: &Measured, masses: usize) -> Vec<(&str, Vec<(f64, f64)>)> {
-    let mut found: Vec<(&str, Vec<(f64, f64)>)> = Vec::new();
+    let mut groups: Vec<(&str, Vec<(f64, f64)>)> = Vec::new();
     let rows = measured.rows_about(Subject::Engine).chain(measured.rows_about(Subject::Peer));
     for row in rows.filter(|row| row.n == masses as u64 && row.chains == 1) {
         let time = row.microseconds_per_impact.zip(measured.engine(row));
         let Some(time) = time.map(|(time, engine)| time / engine) else { continue };
         let point = (time, row.horizon_time.unwrap_or(row.until));
-        match found.last_mut().filter(|last| last.0 == row.name) {
+        match groups.last_mut().filter(|last| last.0 == row.name) {
             Some(last) => last.1.push(point),
-            None => found.push((&row.name, vec![point])),
+            None => groups.push((&row.name, vec![point])),
         }
     }
-    found
+    groups
 }

@@ -1,6 +1,6 @@
 //! Draws Fig. S3: gaps that close by themselves, and chains with one of them.
 
-use super::encoding::{FORCING, SHARE};
+use super::encoding::{Look, SIGMA_LABEL};
 use super::prelude::*;
 use crate::experiments::theory::comparison::interpolate;
 use crate::experiments::{Results, sweep};
@@ -13,7 +13,7 @@ const SIGMAS: (f64, f64) = (0.055, 0.165);
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let table = |name| results.table(name);
     let (missing, shares) = (table("nucleation.times")?, table("nucleation.shares")?);
-    let masses = sweep::main(results)?.ensemble.chain.masses;
+    let masses = sweep::main_sweep(results)?.ensemble.chain.masses;
     let sheet = Sheet::new(8600);
     chains(&sheet, table("nucleation.chains")?, shares, table("sweep.rows")?, masses)?;
     times(&sheet, missing)?;
@@ -28,16 +28,16 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
 }
 
 fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table, masses: usize) -> Drawn {
-    let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.02, 2, FORCING);
+    let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.02, 2, SIGMA_LABEL);
     let y = Axis::linear(0.0, 1.05, 0.2, 2, "share of chains with an impact");
     let panel = sheet.lettered("(a)", Frame::new(1150, 430, 8150, 3730), x, y)?;
-    let mut kept = sweep.curve(&[], "sigma", "kept")?;
-    kept.retain(|(sigma, _)| *sigma > SIGMAS.0 && *sigma < SIGMAS.1);
-    panel.markers(SHARE.name, &kept, SHARE.mark)?;
+    let mut active = sweep.curve(&[], "sigma", "kept")?;
+    active.retain(|(sigma, _)| *sigma > SIGMAS.0 && *sigma < SIGMAS.1);
+    panel.markers(Look::SHARE.name, &active, Look::SHARE.mark)?;
     let last = found.distinct("time")?.last().copied().unwrap_or_default();
     let lengths = found.distinct("masses")?;
-    for (place, &masses) in lengths.iter().enumerate() {
-        let colour = ordered(place, lengths.len());
+    for (i, &masses) in lengths.iter().enumerate() {
+        let colour = ordered(i, lengths.len());
         let (name, keys) = (format!("*n* = {masses}"), [("masses", masses), ("time", last)]);
         let curve = shares.curve(&keys[..1], "sigma", "clumps")?;
         panel.curve(&name, &curve, Stroke::solid(colour, LINE))?;
@@ -46,15 +46,11 @@ fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table, masses: u
         let disc = (Symbol::Disc, LARGE, Stroke::solid(colour, THIN));
         panel.unrecorded().estimates(&name, &marks, disc)?;
         let rising: Vec<_> = curve.into_iter().map(|(sigma, share)| (share, sigma)).collect();
-        let (height, side) = if place == 0 { (0.3, (1, 1)) } else { (0.6, (-3, 0)) };
-        panel.label(
-            &name,
-            (interpolate(&rising, height).unwrap_or(SIGMAS.0), height),
-            side,
-            colour,
-        )?;
+        let (height, side) = if i == 0 { (0.3, (1, 1)) } else { (0.6, (-3, 0)) };
+        let place = (interpolate(&rising, height).unwrap_or(SIGMAS.0), height);
+        panel.label(&name, place, side, colour)?;
     }
-    let Some((sigma, share)) = kept.iter().rfind(|(_, share)| *share < 0.9) else { return Ok(()) };
+    let Some((sigma, share)) = active.iter().rfind(|point| point.1 < 0.9) else { return Ok(()) };
     let leader = [(sigma + 0.001, share - 0.03), (sigma + 0.004, share - 0.1)];
     panel.guide("leader", &leader, Stroke::solid(RED, HAIR))?;
     panel.label(&format!("main sweep, *n* = {masses}"), leader[1], (1, 1), RED)

@@ -1,6 +1,6 @@
 //! Draws Fig. S4: how impacts spread from one gap, and the mean count that follows.
 
-use super::encoding::{ALL, FORCING, HALF_HEIGHT, REST, SEEDS, THEORY, gaps_axis};
+use super::encoding::{HALF_HEIGHT_LABEL, Look, SIGMA_LABEL, gaps_axis};
 use super::prelude::*;
 use crate::experiments::Results;
 use crate::experiments::theory::comparison::interpolate;
@@ -29,11 +29,11 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
 fn counts(sheet: &Sheet, results: &Results) -> Drawn {
     let (theory, sweep) = (results.table("theory.curve")?, results.table("sweep.rows")?);
     let run = |column: &str| results.number(&format!("sweep.run.{column}"));
-    let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.01, 2, FORCING);
+    let x = Axis::linear(SIGMAS.0, SIGMAS.1, 0.01, 2, SIGMA_LABEL);
     let y = gaps_axis(run("gaps")? as usize, 20.0);
     let panel = sheet.lettered("(a)", Frame::new(1150, 430, 8150, 3730), x, y)?;
     let transient = [("transient", run("transient")?)];
-    for (look, column, height) in [(THEORY, "simple", 50.0), (REST, "rest", 62.0)] {
+    for (look, column, height) in [(Look::THEORY, "simple", 50.0), (Look::REST, "rest", 62.0)] {
         let mut curve = theory.curve(&[], "sigma", column)?;
         curve.retain(|(sigma, _)| *sigma >= SIGMAS.0 && *sigma <= SIGMAS.1);
         panel.curve(look.name, &curve, look.line)?;
@@ -42,18 +42,18 @@ fn counts(sheet: &Sheet, results: &Results) -> Drawn {
         panel.label(look.name, place, (-2, 0), GREEN)?;
     }
     let grown = results.table("seeds.means")?.series(&transient, "sigma", "grown")?;
-    panel.joined_estimates(SEEDS.name, &grown, SEEDS.mark)?;
+    panel.joined_estimates(Look::SEEDS.name, &grown, Look::SEEDS.mark)?;
     if let Some((sigma, mean)) = grown.iter().find(|(_, mean)| mean.value > 85.0) {
-        panel.label(SEEDS.name, (*sigma, mean.value), (-1, -1), INK)?;
+        panel.label(Look::SEEDS.name, (*sigma, mean.value), (-1, -1), INK)?;
     }
     let mut all = sweep.series(&[], "sigma", "mean_all")?;
     all.retain(|(sigma, _)| *sigma > SIGMAS.0 && *sigma < SIGMAS.1);
-    panel.joined_estimates(ALL.name, &all, ALL.mark)?;
+    panel.joined_estimates(Look::ALL.name, &all, Look::ALL.mark)?;
     let low = all.iter().rfind(|(_, mean)| mean.value < 40.0);
     let Some((sigma, mean)) = low else { return Ok(()) };
     let leader = [(sigma + 0.001, mean.value - 3.0), (sigma + 0.004, mean.value - 10.0)];
     panel.guide("leader", &leader, Stroke::solid(RED, HAIR))?;
-    panel.label(ALL.name, leader[1], (1, 1), RED)
+    panel.label(Look::ALL.name, leader[1], (1, 1), RED)
 }
 
 fn advances(sheet: &Sheet, advance: &Table) -> Drawn {
@@ -78,13 +78,13 @@ fn advances(sheet: &Sheet, advance: &Table) -> Drawn {
 
 fn halves(sheet: &Sheet, rise: &Table, scores: &Table) -> Drawn {
     let x = Axis::decades(1, 4, 1, "transient *T* (1/*ω*)").between(20.0, 2000.0);
-    let y = Axis::linear(0.1, 0.14, 0.01, 2, HALF_HEIGHT).column("half_height (d omega^2)");
+    let y = Axis::linear(0.1, 0.14, 0.01, 2, HALF_HEIGHT_LABEL).column("half_height (d omega^2)");
     let panel =
         sheet.lettered("(c)", Frame::new(5600, 5250, 8150, 7650), x, y)?.outside(Outside::Edge);
     let grown = rise.curve(&[], "transient", "half_height")?;
-    panel.marked_curve(SEEDS.name, &grown, SEEDS.mark.2, SEEDS.mark)?;
-    let found = scores.series(&[], "transient", "half_height")?;
-    panel.joined_estimates(ALL.name, &found, ALL.mark)?;
+    panel.marked_curve(Look::SEEDS.name, &grown, Look::SEEDS.mark.2, Look::SEEDS.mark)?;
+    let half_heights = scores.series(&[], "transient", "half_height")?;
+    panel.joined_estimates(Look::ALL.name, &half_heights, Look::ALL.mark)?;
     panel.label("all chains", (150.0, 0.1355), (1, 0), RED)?;
-    panel.label(SEEDS.name, (300.0, 0.109), (-1, 0), INK)
+    panel.label(Look::SEEDS.name, (300.0, 0.109), (-1, 0), INK)
 }

@@ -1,6 +1,6 @@
 //! Draws Fig. S5: chains from rest and from above after several transients.
 
-use super::encoding::{FORCING, HALF_HEIGHT};
+use super::encoding::{HALF_HEIGHT_LABEL, SIGMA_LABEL};
 use super::prelude::*;
 use crate::experiments::{PROTOCOL, Results};
 use literate::table::Table;
@@ -39,7 +39,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
 
 fn half_heights(sheet: &Sheet, results: &Results, halves: &Table, lengths: &[f64]) -> Drawn {
     let x = Axis::decades(1, 6, 1, "transient *T* (1/*ω*)").between(10.0, 1.25e5);
-    let y = Axis::linear(0.06, 0.14, 0.01, 2, HALF_HEIGHT).column("half_height (d omega^2)");
+    let y = Axis::linear(0.06, 0.14, 0.01, 2, HALF_HEIGHT_LABEL).column("half_height (d omega^2)");
     let panel =
         sheet.lettered("(a)", Frame::new(1150, 430, 6000, 3930), x, y)?.outside(Outside::Cut);
     let masses = results.of(&PROTOCOL)?.first().map_or(0, |map| map.ensemble.chain.masses);
@@ -73,7 +73,7 @@ fn half_heights(sheet: &Sheet, results: &Results, halves: &Table, lengths: &[f64
 fn shares(sheet: &Sheet, shares: &Table, masses: f64) -> Drawn {
     let sigmas = shares.distinct("sigma")?;
     let least = sigmas.iter().copied().fold(f64::INFINITY, f64::min);
-    let x = Axis::linear(least - 0.005, largest(&sigmas) + 0.005, 0.01, 2, FORCING);
+    let x = Axis::linear(least - 0.005, largest(&sigmas) + 0.005, 0.01, 2, SIGMA_LABEL);
     let y = Axis::linear(0.0, 1.0, 0.2, 2, "share of gaps with an impact");
     let panel = sheet.lettered("(b)", Frame::new(1150, 5250, 8150, 8000), x, y)?;
     let transients = shares.distinct("transient")?;

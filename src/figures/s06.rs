@@ -1,6 +1,6 @@
 //! Draws Fig. S6: the most likely number and its jump for many vertices.
 
-use super::encoding::MODE;
+use super::encoding::Look;
 use super::prelude::*;
 use crate::experiments::Results;
 use crate::experiments::theory::large;
@@ -56,7 +56,7 @@ fn jumps(sheet: &Sheet, table: &Table) -> Drawn {
     let rule: Vec<_> = rule.into_iter().map(|(n, k)| (n, k / n)).collect();
     panel.curve("rule", &rule, Stroke::solid(INK, THIN))?;
     let exact = table.curve(&[], "n", "share")?;
-    panel.markers("exact", &exact, MODE.mark)?;
+    panel.markers("exact", &exact, Look::MODE.mark)?;
     if let Some(place) = exact.get(4) {
         panel.label("exact", *place, (2, -1), PURPLE)?;
     }

@@ -34,15 +34,16 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let point = |row: &&Compared| {
             let share = row.share?;
             let interval = share.interval.map(|end| 100.0 * end);
-            Some((row.setting, (time(row.setting)?, 100.0 * share.value, Some(interval))))
+            let (setting, x) = (row.setting, time(row.setting)?);
+            Some(rivals::Point { setting, x, y: 100.0 * share.value, interval: Some(interval) })
         };
         rivals::draw(&panel, &rivals::all_by_method(&own, point), &[])?;
         let engine = Setting { method: MethodName::Certified, value: 0.0, stop: 0.0 };
         let at = time(engine).map(|time| (time, 0.0));
         panel.unrecorded().markers("engine", at.as_slice(), encoding::method(engine.method))?;
     }
-    let shown = MethodName::ALL.into_iter().filter(|method| *method != MethodName::Truth);
-    for (i, method) in shown.enumerate() {
+    let methods = MethodName::ALL.into_iter().filter(|method| *method != MethodName::Truth);
+    for (i, method) in methods.enumerate() {
         let (x, y) = ([1100, 2950, 4250, 6300][i % 4], 7200 + 400 * (i as i32 / 4));
         sheet.area.draw(&markers(vec![(x, y)], encoding::method(method)))?;
         let style = words(SMALL, INK, HPos::Left, VPos::Center);

@@ -23,8 +23,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let trials = results.of(&TRIALS)?;
     let scenes = &trials.parameters.scenes;
     let own = trials.parameters.settings.iter().enumerate().map(|(place, setting)| {
-        let found = trials.trials.iter().map(|found| &found[place]);
-        (setting.method.title(), found.collect::<Vec<_>>())
+        let column = trials.trials.iter().map(|row| &row[place]);
+        (setting.method.title(), column.collect::<Vec<_>>())
     });
     let others = results.of(&PROGRAMS)?.iter().flat_map(|program| &program.settings);
     let others = others.map(|run| (&*run.name, scenes.iter().map(|s| run.trial(s)).collect()));
@@ -77,7 +77,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         "A row for each of {count} scenes, with a tile for each setting of {} methods and programs, filled as far as its cases fail. The \
          engine, at the left, is right in all cases of {} scenes.",
         groups.len(),
-        trials.trials.iter().filter(|found| right(&found[0]) == found[0].len()).count(),
+        trials.trials.iter().filter(|row| right(&row[0]) == row[0].len()).count(),
     );
     Ok(sheet.finish("Where methods and programs fail", description))
 }
@@ -87,11 +87,11 @@ fn tile(sheet: &Sheet, (left, top): (i32, i32), width: i32, trial: &Trial) -> Dr
     let right = left + width - 22;
     let all = [(left, top), (right, top + HEIGHT)];
     sheet.area.draw(&Rectangle::new(all, GREEN.mix(0.3).filled()))?;
-    let mut failed = 0;
+    let mut failures = 0;
     for (_, colour, outcomes) in FAILURES {
-        let base = top + HEIGHT - HEIGHT * failed as i32 / trial.len() as i32;
-        failed += trial.iter().filter(|outcome| outcomes.contains(outcome)).count();
-        let upper = top + HEIGHT - HEIGHT * failed as i32 / trial.len() as i32;
+        let base = top + HEIGHT - HEIGHT * failures as i32 / trial.len() as i32;
+        failures += trial.iter().filter(|outcome| outcomes.contains(outcome)).count();
+        let upper = top + HEIGHT - HEIGHT * failures as i32 / trial.len() as i32;
         if upper < base {
             sheet.area.draw(&Rectangle::new([(left, upper), (right, base)], colour.filled()))?;
         }

@@ -1,26 +1,26 @@
 //! Draws Fig. S9: error and misses of the next impact against measured time, for every method.
 
 use super::prelude::*;
-use super::rivals::{self, FINEST, Place, by_method, over_engine};
+use super::rivals::{self, FINEST, Place, Point, by_method, over_engine};
 use crate::experiments::accuracy::race::{DISPLACED, Entry};
 use crate::experiments::{MEASURED, RACE, Results};
 use crate::params::MethodName::*;
 
-/// Where the names stand in the upper panel.
-const NAMES: [Place; 4] = [
-    (Certified, FINEST, (-2, 0)),
-    (Sampled, FINEST, (2, 0)),
-    (Advancement, 0, (-2, 0)),
-    (RungeKutta, FINEST, (2, 0)),
+/// Where the names stand in (a).
+const NAMES_IN_A: [Place; 4] = [
+    Place { method: Certified, setting: FINEST, offset: (-2, 0) },
+    Place { method: Sampled, setting: FINEST, offset: (2, 0) },
+    Place { method: Advancement, setting: 0, offset: (-2, 0) },
+    Place { method: RungeKutta, setting: FINEST, offset: (2, 0) },
 ];
 
-/// Where they stand in the lower panel.
-const MISSED: [Place; 5] = [
-    (Advancement, 0, (2, 0)),
-    (RungeKutta, FINEST, (1, -2)),
-    (MoreauJean, 2, (2, 0)),
-    (Verlet, 0, (0, 2)),
-    (Penalty, FINEST, (-1, -2)),
+/// Where they stand in (b).
+const NAMES_IN_B: [Place; 5] = [
+    Place { method: Advancement, setting: 0, offset: (2, 0) },
+    Place { method: RungeKutta, setting: FINEST, offset: (1, -2) },
+    Place { method: MoreauJean, setting: 2, offset: (2, 0) },
+    Place { method: Verlet, setting: 0, offset: (0, 2) },
+    Place { method: Penalty, setting: FINEST, offset: (-1, -2) },
 ];
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
@@ -34,8 +34,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     errors.level("counts as missed", DISPLACED, Stroke::dashed(GREY, HAIR, SHORT))?;
     errors.label("missed above", (errors.x.hi, DISPLACED), (-1, -1), INK)?;
 
-    let tried = race.entries.iter().map(|e| e.tried).max().unwrap_or(1);
-    let bottom = -(pxfm::f_log10(tried as f64).ceil() as i32) - 1;
+    let states = race.entries.iter().map(|e| e.tried).max().unwrap_or(1);
+    let bottom = -(pxfm::f_log10(states as f64).ceil() as i32) - 1;
     let mut axis = Axis::decades(bottom, 0, 1, "share missed");
     // Below one in all that were tried there is nothing but zero.
     axis.ticks.retain(|tick| tick.at <= axis.lo || tick.at >= 9.5 * axis.lo);
@@ -46,13 +46,14 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let misses = sheet.lettered("(b)", misses, time_axis(), axis)?.outside(Outside::Edge);
     misses.level("a break", 7.0 * misses.y.lo, Stroke::dashed(GREY, HAIR, SHORT))?;
     let time = |e: &Entry| over_engine(race, measured, e.setting);
-    let median = |e: &Entry| Some((e.setting, (time(e)?, e.errors?[0], e.errors)));
-    let share = |e: &Entry| e.misses as f64 / e.tried.max(1) as f64;
-    let missed = |e: &Entry| Some((e.setting, (time(e)?, share(e), None)));
+    let point =
+        |e: &Entry, y: f64, interval| Some(Point { setting: e.setting, x: time(e)?, y, interval });
+    let median_error = |e: &Entry| point(e, e.errors?[0], e.errors);
+    let share_missed = |e: &Entry| point(e, e.misses as f64 / e.tried.max(1) as f64, None);
     rivals::key(&errors, 110.0, [1e-5, 3e-7, 1e-8])?;
-    rivals::draw(&errors, &by_method(&race.entries, median), &NAMES)?;
+    rivals::draw(&errors, &by_method(&race.entries, median_error), &NAMES_IN_A)?;
     rivals::better(&errors, (0.7, 1e-10), (0.35, 1e-13))?;
-    rivals::draw(&misses, &by_method(&race.entries, missed), &MISSED)?;
+    rivals::draw(&misses, &by_method(&race.entries, share_missed), &NAMES_IN_B)?;
     let certified = race.entries.iter().find(|e| e.setting.method == Certified);
     let largest = certified.and_then(|entry| Some(entry.errors?[1]));
     let description = describe!(

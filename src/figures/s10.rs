@@ -2,7 +2,7 @@
 
 use super::encoding;
 use super::prelude::*;
-use super::rivals::{self, FINEST, Place, by_method, over_engine, programs};
+use super::rivals::{self, FINEST, Place, Point, by_method, over_engine, programs};
 use crate::experiments::accuracy::race::{DISPLACED, Entry, Race};
 use crate::experiments::{MEASURED, RACE, Results};
 use crate::params::MethodName::*;
@@ -12,8 +12,11 @@ use impact_numerics::statistics::Estimate;
 const ROUNDING: f64 = f64::EPSILON / 2.0;
 
 /// Where names stand in (a).
-const NAMES: [Place; 3] =
-    [(Certified, FINEST, (0, 2)), (Advancement, 1, (-2, 0)), (RungeKutta, 3, (2, 0))];
+const NAMES_IN_A: [Place; 3] = [
+    Place { method: Certified, setting: FINEST, offset: (0, 2) },
+    Place { method: Advancement, setting: 1, offset: (-2, 0) },
+    Place { method: RungeKutta, setting: 3, offset: (2, 0) },
+];
 
 /// The same in (b), for other programs: name of the row, name here.
 const PROGRAMS: [(&str, &str, usize, (i32, i32)); 6] = [
@@ -26,8 +29,11 @@ const PROGRAMS: [(&str, &str, usize, (i32, i32)); 6] = [
 ];
 
 /// The same for (c).
-const BY_ERROR: [Place; 3] =
-    [(Certified, FINEST, (-2, 0)), (Sampled, 0, (-2, 0)), (Advancement, 2, (0, 3))];
+const NAMES_IN_C: [Place; 3] = [
+    Place { method: Certified, setting: FINEST, offset: (-2, 0) },
+    Place { method: Sampled, setting: 0, offset: (-2, 0) },
+    Place { method: Advancement, setting: 2, offset: (0, 3) },
+];
 
 /// Returns the time in which an error ε grows to [`DISPLACED`], ln([`DISPLACED`]/ε)/λ, and its
 /// interval: [low, value, high].
@@ -58,13 +64,16 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     }
     let run = &race.parameters.growth;
     let time = |e: &Entry| over_engine(race, measured, e.setting);
-    let point = |x: f64, t: Estimate| (x, t.value, Some([t.value - t.error, t.value + t.error]));
-    let timed = |e: &Entry| Some((e.setting, point(time(e)?, e.horizon()?)));
-    let median = |e: &Entry| Some((e.setting, point(e.errors?[0], e.horizon()?)));
-    let timed = by_method(&race.entries, timed);
+    let point = |setting, x: f64, t: Estimate| {
+        let interval = Some([t.value - t.error, t.value + t.error]);
+        Point { setting, x, y: t.value, interval }
+    };
+    let against_time = |e: &Entry| Some(point(e.setting, time(e)?, e.horizon()?));
+    let against_error = |e: &Entry| Some(point(e.setting, e.errors?[0], e.horizon()?));
+    let curves = by_method(&race.entries, against_time);
     rivals::key(&by_time, 700.0, [0.48, 0.37, 0.26].map(|share| share * top))?;
-    rivals::draw(&by_time, &timed, &NAMES)?;
-    rivals::draw(&by_error, &by_method(&race.entries, median), &BY_ERROR)?;
+    rivals::draw(&by_time, &curves, &NAMES_IN_A)?;
+    rivals::draw(&by_error, &by_method(&race.entries, against_error), &NAMES_IN_C)?;
     for (program, points) in programs(measured, run.chain.masses) {
         let Some(place) = PROGRAMS.iter().find(|place| place.0 == program) else { continue };
         let mark = match place.1 {
@@ -78,7 +87,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         }
     }
     // The coarsest and the finest setting; the first of Runge–Kutta lies on the fixed steps.
-    for (method, points) in &timed {
+    for (method, points) in &curves {
         let offsets = match method {
             Advancement => [(1, -1), (2, 0)],
             RungeKutta => [(1, 0); 2],
@@ -88,8 +97,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         };
         let first = points.first().filter(|_| *method != RungeKutta);
         let ends = first.into_iter().chain(points.iter().skip(1).last());
-        for ((setting, (x, t, _)), offset) in ends.zip(offsets) {
-            by_time.label_nearby(&in_powers(setting.value), (*x, t.min(top)), offset, GREY)?;
+        for (Point { setting, x, y, .. }, offset) in ends.zip(offsets) {
+            by_time.label_nearby(&in_powers(setting.value), (*x, y.min(top)), offset, GREY)?;
         }
     }
     by_time.label_nearby("sampling", (6.5, 0.77 * top), (1, 0), INK)?;

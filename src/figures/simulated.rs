@@ -1,6 +1,6 @@
 //! Gives the figures of the simulations what they share: rows, axes and marks.
 
-use super::encoding::FORCING;
+use super::encoding::SIGMA_LABEL;
 use super::prelude::*;
 use crate::experiments::Results;
 use crate::experiments::theory::comparison;
@@ -11,39 +11,39 @@ pub const INTERVAL: Stroke = Stroke::solid(GREY, 30);
 
 /// Makes the axis of σ around the rise; the data files have all σ.
 pub fn sigma_axis() -> Axis {
-    Axis::linear(0.05, 0.25, 0.05, 5, FORCING)
+    Axis::linear(0.05, 0.25, 0.05, 5, SIGMA_LABEL)
 }
 
 /// Where the main panel of Figs. 2, 3, 12 and 15 stands.
 pub const MAIN: Frame = Frame::new(1200, 430, 8150, 4430);
 
-/// A dotted line at the σ that the paper prints for the rise, from a height to the top.
-pub fn printed(panel: &Panel, from: f64) -> Drawn {
-    let printed = printed_threshold();
-    let line = [(printed, from), (printed, panel.y.hi)];
+/// Draws a dotted line at the σ that the paper prints for the rise, from a height to the top.
+pub fn draw_printed_threshold(panel: &Panel, from: f64) -> Drawn {
+    let threshold = printed_threshold();
+    let line = [(threshold, from), (threshold, panel.y.hi)];
     panel.guide("printed", &line, Stroke::dashed(INK, THIN, DOTTED))?;
-    panel.label(&format!("paper: {printed}"), line[1], (0, -1), INK)
+    panel.label(&format!("paper: {threshold}"), line[1], (0, -1), INK)
 }
 
-/// Mean over the realisations with an impact against σ.
-pub fn means(results: &Results) -> Result<Vec<(f64, f64)>, Error> {
+/// Returns the mean over the active realisations against σ.
+pub fn simulated_points(results: &Results) -> Result<Vec<(f64, f64)>, Error> {
     Ok(results.table("sweep.rows")?.curve(&[], "sigma", "mean")?)
 }
 
-/// A theory curve up to the largest σ of the main sweep.
-pub fn curve(results: &Results, column: &str) -> Result<Vec<(f64, f64)>, Error> {
+/// Returns a theory curve up to the largest σ of the main sweep.
+pub fn theory_points(results: &Results, column: &str) -> Result<Vec<(f64, f64)>, Error> {
     let end = largest(&results.table("sweep.rows")?.distinct("sigma")?);
     let mut points = results.table("theory.curve")?.curve(&[], "sigma", column)?;
     points.retain(|(sigma, _)| *sigma <= end);
     Ok(points)
 }
 
-/// The first point of a curve at or above some height, for its name.
-pub fn reaches(points: &[(f64, f64)], height: f64) -> (f64, f64) {
+/// Returns the first point of a curve at or above some height, for its name.
+pub fn first_point_above(points: &[(f64, f64)], height: f64) -> (f64, f64) {
     points.iter().find(|point| point.1 >= height).copied().unwrap_or((printed_threshold(), height))
 }
 
-/// The value of a curve at some σ in words.
-pub fn at(points: &[(f64, f64)], sigma: f64) -> String {
+/// Returns the value of a curve at some σ in words.
+pub fn value_in_words(points: &[(f64, f64)], sigma: f64) -> String {
     comparison::interpolate(points, sigma).map_or("nothing".into(), |value| short(value, 3))
 }

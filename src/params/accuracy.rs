@@ -113,7 +113,8 @@ fn settings(values: impl Fn(&'static MethodSettings) -> &'static [f64]) -> Vec<S
 }
 
 /// Random stream and seed of the chains on which other programs are measured.
-pub const BENCH: (&str, u64) = ("bench", 1);
+pub const BENCH_STREAM: &str = "bench";
+pub const BENCH_SEED: u64 = 1;
 
 /// Every method against the true motion: the next impact from exact states, and whole runs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -135,7 +136,7 @@ impl RaceParams {
         let (until, at_least, chains, segments, realisations) =
             if quick { (30.0, 10.0, 2, 12, 6) } else { (250.0, 20.0, 16, 1200, 60) };
         let chain = Chain { masses: 20, ..Chain::default() };
-        let (stream, seed) = (BENCH.0.into(), BENCH.1);
+        let (stream, seed) = (BENCH_STREAM.into(), BENCH_SEED);
         let growth = Runs { chain, sigma: 0.3, until: 300.0, realisations, stream, seed };
         let race = |one: &'static MethodSettings| {
             if quick { std::slice::from_ref(&one.quick_race) } else { one.race }
@@ -168,17 +169,18 @@ pub struct ScaleParams {
     pub sigma: f64,
     pub masses: Vec<usize>,
     /// Largest n of all methods but the engine.
-    pub rivals: usize,
+    pub largest_for_rivals: usize,
     pub settings: Vec<Setting>,
 }
 
 impl ScaleParams {
     pub fn new(profile: Profile) -> Self {
-        let (masses, rivals) = match profile {
+        let (masses, largest_for_rivals) = match profile {
             Profile::Full => (vec![10, 30, 100, 300, 1000, 10_000], 300),
             Profile::Quick => (vec![10, 30, 100, 1000], 30),
         };
-        ScaleParams { sigma: 0.3, masses, rivals, settings: settings(|one| one.scale) }
+        let settings = settings(|one| one.scale);
+        ScaleParams { sigma: 0.3, masses, largest_for_rivals, settings }
     }
 }
 
@@ -233,12 +235,10 @@ impl BiasParams {
             let window = if quick { 100.0 } else { Protocol::default().window };
             let mut settings = Vec::new();
             for MethodSettings { method, means, .. } in &METHODS {
-                settings.extend(means.iter().filter(|(_, chains)| chains[i] > 0).map(
-                    |&(value, chains)| {
-                        let chains = if quick { chains[i].min(2) } else { chains[i] };
-                        (Setting { method: *method, value, stop: 0.0 }, chains)
-                    },
-                ));
+                for &(value, chains) in means.iter().filter(|(_, chains)| chains[i] > 0) {
+                    let chains = if quick { chains[i].min(2) } else { chains[i] };
+                    settings.push((Setting { method: *method, value, stop: 0.0 }, chains));
+                }
             }
             let (chain, until, stream) = (Chain::default(), transient + window, "sweep".into());
             let realisations = settings[0].1;

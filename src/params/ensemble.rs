@@ -83,7 +83,8 @@ impl Ensemble {
         self.beyond.filter(|less| sigma > less.above)
     }
 
-    /// Whether so few starts at a σ were rejected for overlap that its row counts for the rise.
+    /// Returns whether so few starts at a σ were rejected for overlap that its row counts for the
+    /// rise.
     pub fn is_comparable(&self, sigma: f64, rejected: usize) -> bool {
         rejected as f64 <= self.most_rejected * self.realisations_at(sigma) as f64
     }

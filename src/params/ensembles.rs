@@ -12,7 +12,9 @@ fn windows(transients: &[f64], widths: &[f64]) -> Vec<Protocol> {
     transients.iter().flat_map(after).collect()
 }
 
-/// The paper's chain from rest, with our protocol (the default of [`Ensemble`]).
+/// The paper's chain from rest, with our protocol (the default of [`Ensemble`]). The name is that
+/// of its random stream too: ensembles of one name have the same chains, also in experiments with
+/// other names.
 fn paper(name: &str, sigmas: Grid, realisations: usize) -> Ensemble {
     Ensemble {
         name: name.into(),
@@ -29,11 +31,12 @@ pub fn sweep(profile: Profile) -> Vec<Ensemble> {
     let (sigmas, realisations, few) = match profile {
         // 69 values, 0.0025 apart where the rise is.
         Profile::Full => {
-            let rise = grid.and(4, 15, 1, 200).and(32, 72, 1, 400);
-            (rise.and(19, 28, 1, 100).and(15, 20, 1, 50), 1000, 100)
+            let rise = grid.and(4..=15, 200).and(32..=72, 400);
+            (rise.and(19..=28, 100).and(15..=20, 50), 1000, 100)
         }
         Profile::Quick => {
-            (grid.and(2, 8, 2, 100).and(9, 16, 1, 100).and(9, 9, 1, 50).and(4, 8, 1, 20), 12, 6)
+            let rise = grid.and([2, 4, 6, 8], 100).and(9..=16, 100);
+            (rise.and([9], 50).and(4..=8, 20), 12, 6)
         }
     };
     let beyond = Beyond { above: 0.16, realisations: Some(few), until: None };
@@ -43,8 +46,8 @@ pub fn sweep(profile: Profile) -> Vec<Ensemble> {
 /// The headline numbers again, with another seed and fewer realisations on the rise only.
 pub fn second_seed(profile: Profile) -> Vec<Ensemble> {
     let (sigmas, realisations) = match profile {
-        Profile::Full => (Grid::default().and(34, 54, 1, 400), 200),
-        Profile::Quick => (Grid::default().and(8, 16, 1, 100), 8),
+        Profile::Full => (Grid::default().and(34..=54, 400), 200),
+        Profile::Quick => (Grid::default().and(8..=16, 100), 8),
     };
     // The stream of the main sweep: only the seed differs.
     vec![Ensemble { seed: SECOND_SEED, ..paper("sweep", sigmas, realisations) }]
@@ -53,8 +56,10 @@ pub fn second_seed(profile: Profile) -> Vec<Ensemble> {
 /// The map over transients and windows, and chains of the main sweep well below the rise.
 pub fn protocol(profile: Profile) -> Vec<Ensemble> {
     let (longest, widest, sigmas, realisations, below) = match profile {
-        Profile::Full => (9, 7, Grid::default().and(34, 68, 2, 400).and(18, 22, 1, 100), 80, 1000),
-        Profile::Quick => (6, 5, Grid::default().and(9, 17, 1, 100), 6, 100),
+        Profile::Full => {
+            (9, 7, Grid::default().and((34..=68).step_by(2), 400).and(18..=22, 100), 80, 1000)
+        }
+        Profile::Quick => (6, 5, Grid::default().and(9..=17, 100), 6, 100),
     };
     let transients = [10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0, 4000.0];
     let widths = [20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0];
@@ -62,7 +67,7 @@ pub fn protocol(profile: Profile) -> Vec<Ensemble> {
     // Above, nearly every gap has been hit long before the end.
     let beyond = Some(Beyond { above: 0.131, realisations: None, until: Some(1000.0) });
     let map = paper("protocol", sigmas, realisations);
-    let below = paper("sweep", Grid::default().and(8, 8, 1, 100), below);
+    let below = paper("sweep", Grid::default().and([8], 100), below);
     vec![Ensemble { protocols: protocols.clone(), beyond, ..map }, Ensemble { protocols, ..below }]
 }
 
@@ -73,7 +78,7 @@ pub fn starts(profile: Profile) -> Vec<Ensemble> {
         Profile::Quick => (2, 4),
     };
     let variant = |name: &str, [from, to]: [u32; 2], change: fn(&mut Chain)| {
-        let sigmas = Grid::default().and(from, to, step, 100);
+        let sigmas = Grid::default().and((from..=to).step_by(step), 100);
         let mut one = Ensemble { stream: "starts".into(), ..paper(name, sigmas, realisations) };
         change(&mut one.chain);
         one
@@ -105,7 +110,7 @@ pub fn lengths(profile: Profile) -> Vec<Ensemble> {
     };
     let rest = |&(masses, [from, to, step], realisations, transient, widths): &Sizes| {
         let name = format!("rest, n = {masses}, T = {transient}");
-        let sigmas = Grid::default().and(from, to, step as usize, 1000);
+        let sigmas = Grid::default().and((from..=to).step_by(step as usize), 1000);
         Ensemble {
             chain: Chain { masses, ..Chain::default() },
             protocols: windows(&[transient], widths),
@@ -124,7 +129,7 @@ pub fn lengths(profile: Profile) -> Vec<Ensemble> {
         stream: "chains".into(),
         // The half height lies where many random starts overlap; the others are counted.
         most_rejected: 1.0,
-        ..paper("random", Grid::default().and(9, 18, step, 100), realisations)
+        ..paper("random", Grid::default().and((9..=18).step_by(step), 100), realisations)
     };
     sizes.iter().map(rest).chain([random]).collect()
 }
@@ -169,7 +174,7 @@ pub fn branches(profile: Profile) -> Vec<Ensemble> {
         for &masses in lengths {
             let start = if heating.is_some() { "above" } else { "rest" };
             let name = format!("{start}, n = {masses}, σ from {}", f64::from(from) / 1e4);
-            let sigmas = Grid::default().and(from, to, step as usize, 10_000);
+            let sigmas = Grid::default().and((from..=to).step_by(step as usize), 10_000);
             ensembles.push(Ensemble {
                 chain: Chain { masses, ..Chain::default() },
                 heating,
@@ -184,20 +189,19 @@ pub fn branches(profile: Profile) -> Vec<Ensemble> {
 
 /// Chains of several restitutions, each at the σ where its half height may lie.
 pub fn restitution(profile: Profile) -> Vec<Ensemble> {
-    let from = |from, to, step| Grid::default().and(from, to, step, 100);
     // σ around the half height, and up to strong forces.
-    let large = from(16, 18, 1).and(4, 7, 1, 20).and(2, 2, 1, 5);
-    let small = from(8, 14, 1).and(16, 18, 1, 100).and(4, 4, 1, 20).and(2, 2, 1, 5);
+    let large = Grid::default().and(16..=18, 100).and(4..=7, 20).and([2], 5);
+    let small = Grid::default().and(8..=14, 100).and(16..=18, 100).and([4], 20).and([2], 5);
     let (cases, realisations): (Vec<(&[f64], Grid)>, _) = match profile {
         Profile::Full => (
             vec![
                 (&[0.0, 0.05, 0.1, 0.2, 0.4], large),
-                (&[0.6], from(10, 20, 1)),
+                (&[0.6], Grid::default().and(10..=20, 100)),
                 (&[0.8, 0.9, 0.95], small),
             ],
             24,
         ),
-        Profile::Quick => (vec![(&[0.0, 0.8], from(9, 15, 6).and(30, 60, 30, 100))], 2),
+        Profile::Quick => (vec![(&[0.0, 0.8], Grid::default().and([9, 15, 30, 60], 100))], 2),
     };
     let mut ensembles = Vec::new();
     for (restitutions, sigmas) in cases {
@@ -242,7 +246,7 @@ pub fn jump(profile: Profile) -> Vec<Ensemble> {
     for (name, &([from, to, step], realisations), protocols) in
         walls.chain([("ring, σ", &rings, &[Protocol::default()][..])])
     {
-        for sigma in Grid::default().and(from, to, step as usize, 100_000).values() {
+        for sigma in Grid::default().and((from..=to).step_by(step as usize), 100_000).values() {
             let mut chains = paper(&format!("{name} = {sigma}"), Grid::default(), realisations);
             (chains.sigmas, chains.protocols) = (vec![sigma], protocols.into());
             (chains.first, chains.stream) = (first, "jump".into());

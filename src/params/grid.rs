@@ -5,9 +5,9 @@
 pub struct Grid(Vec<f64>);
 
 impl Grid {
-    /// Appends i / `denominator` for i = `from`, `from` + `step`, … up to `to`, included.
-    pub fn and(mut self, from: u32, to: u32, step: usize, denominator: u32) -> Self {
-        self.0.extend((from..=to).step_by(step).map(|i| f64::from(i) / f64::from(denominator)));
+    /// Appends i / `denominator` for each numerator i.
+    pub fn and(mut self, numerators: impl IntoIterator<Item = u32>, denominator: u32) -> Self {
+        self.0.extend(numerators.into_iter().map(|i| f64::from(i) / f64::from(denominator)));
         self
     }
 

@@ -72,7 +72,7 @@ impl MethodName {
         }
     }
 
-    /// Whether it goes from impact to impact: a least rebound speed helps it to a rest.
+    /// Returns whether it goes from impact to impact: a least rebound speed helps it to a rest.
     pub fn locates_impacts(self) -> bool {
         matches!(self, MethodName::Sampled | MethodName::Advancement | MethodName::RungeKutta)
     }

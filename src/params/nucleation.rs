@@ -20,12 +20,12 @@ pub struct NucleationParams {
 impl NucleationParams {
     pub fn new(profile: Profile) -> Self {
         let (lengths, sigmas, last): (&[_], _, _) = match profile {
-            Profile::Full => (
-                &[(10, 4000), (100, 2000), (1000, 400)],
-                Grid::default().and(6, 16, 1, 100),
-                2000.0,
-            ),
-            Profile::Quick => (&[(10, 60), (100, 30)], Grid::default().and(8, 16, 2, 100), 500.0),
+            Profile::Full => {
+                (&[(10, 4000), (100, 2000), (1000, 400)], Grid::default().and(6..=16, 100), 2000.0)
+            }
+            Profile::Quick => {
+                (&[(10, 60), (100, 30)], Grid::default().and((8..=16).step_by(2), 100), 500.0)
+            }
         };
         let mut times = vec![10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0];
         times.retain(|time| *time <= last);
@@ -68,8 +68,8 @@ pub struct SeedsParams {
 impl SeedsParams {
     pub fn new(profile: Profile) -> Self {
         let (sigmas, realisations) = match profile {
-            Profile::Full => (Grid::default().and(16, 30, 1, 200).and(16, 16, 1, 100), 240),
-            Profile::Quick => (Grid::default().and(9, 14, 1, 100), 6),
+            Profile::Full => (Grid::default().and(16..=30, 200).and([16], 100), 240),
+            Profile::Quick => (Grid::default().and(9..=14, 100), 6),
         };
         SeedsParams {
             chain: Chain::default(),

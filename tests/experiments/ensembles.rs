@@ -64,7 +64,7 @@ fn where_many_starts_overlap_there_is_no_place_of_the_rise() {
     };
     let parts = vec![vec![overlapping(0)], vec![overlapping(10)]];
     let counted = (CUTTING.join)(&vec![ensemble], parts, &Progress::silent()).unwrap();
-    let curve = counted[0].first();
+    let curve = counted[0].first_curve();
     assert_eq!((curve.rise.half_height_all, curve.rows[1].ran), (None, 6));
 }
 
@@ -79,7 +79,7 @@ fn the_rise_lies_where_it_was_measured_elsewhere() {
     };
     assert_eq!(ensemble.chain.start, Start::Rest);
     let counted = CUTTING.run(&vec![ensemble], "test", &Progress::silent()).unwrap();
-    let rise = &counted[0].first().rise;
+    let rise = &counted[0].first_curve().rise;
     let half = rise.half_height.unwrap();
     // Four standard errors of both together; a wrong law of impact moves it by ten.
     let error = (half.error * half.error + 4e-4 * 4e-4).sqrt();

@@ -9,7 +9,7 @@ use impact_numerics::statistics::Estimate;
 use impact_paper::claims::{self, Verdict};
 use impact_paper::experiments::accuracy::case::Outcome::Missed;
 use impact_paper::experiments::{
-    ALL, JUMP, LENGTHS, PROTOCOL, RACE, REPLAY, Results, SCALE, SWEEP, TRIALS,
+    ALL, LENGTHS, MODE_JUMP, PROTOCOL, RACE, REPLAY, Results, SCALE, SWEEP, TRIALS,
 };
 use impact_paper::figures;
 use impact_paper::params::MethodName;
@@ -121,7 +121,7 @@ fn claims_fail_when_the_results_say_so() {
     // What is few or many in every window is judged; what the window decides is not.
     let mean = |value| Some(Mean { value, error: Some(0.01), interval: None });
     // A mode that surely jumps in each window, and for the printed digits.
-    for window in &mut results.get_mut(&JUMP).unwrap().windows {
+    for window in &mut results.get_mut(&MODE_JUMP).unwrap().windows {
         let sure = |value| Some(Estimate { value, error: 0.001, interval: [value; 2] });
         let passing = &mut window.jump.all_gaps;
         (passing.sigma, passing.peak, passing.clearance) = (sure(0.12), sure(50.0), sure(0.5));
@@ -143,10 +143,10 @@ fn claims_fail_when_the_results_say_so() {
         let windows = &mut results.get_mut(&PROTOCOL).unwrap()[1].curves;
         for curve in windows.iter_mut() {
             curve.rows[0].mean = mean(others);
-            (curve.rows[0].kept, curve.rows[0].ran) = (others as usize, 300);
+            (curve.rows[0].active, curve.rows[0].ran) = (others as usize, 300);
         }
         let row = &mut windows.last_mut().unwrap().rows[0];
-        (row.mean, row.kept) = (mean(first), first as usize);
+        (row.mean, row.active) = (mean(first), first as usize);
         let small = ["sec2_few_below", "sec2_none_below"].map(|id| (id, expected));
         let others = [("printed_threshold", CannotBeJudged), ("sec2_three_way", Differs)];
         let large = [("sec2_mode_jump", Reproduced), ("sec8_large_sigma", Differs)];
@@ -196,7 +196,8 @@ fn the_promise_of_the_engine_follows_the_numbers() {
         |results| {
             let ours = |m: MethodName| m == MethodName::Certified;
             let scale = results.get_mut(&SCALE).unwrap();
-            scale.iter_mut().filter(|row| ours(row.0.method)).last().unwrap().2 *= 3.0;
+            let row = scale.iter_mut().rfind(|row| ours(row.setting.method)).unwrap();
+            row.evaluations_per_impact = row.evaluations_per_impact.map(|work| 3.0 * work);
         },
     ];
     for worse in worse {

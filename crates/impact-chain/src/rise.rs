@@ -53,19 +53,20 @@ pub struct RisePoint {
     pub sigma: f64,
     /// Realisations that ran to the end of the window.
     pub ran: usize,
-    /// Those of them with at least one impact in the window.
-    pub kept: usize,
-    /// Different gaps with an impact: mean over those with at least one.
+    /// The active ones of them, with at least one impact in the window.
+    #[cfg_attr(feature = "serde", serde(rename = "kept"))]
+    pub active: usize,
+    /// Different gaps with an impact: mean over the active ones.
     pub mean: Option<Mean>,
     /// Mean over all that ran.
     pub mean_all: Option<Mean>,
-    /// Mode over those with at least one; the lowest of several.
+    /// Mode over the active ones; the lowest of several.
     pub mode: Option<usize>,
     /// The interval of the mode of 95 %.
     pub mode_interval: Option<[usize; 2]>,
-    /// Impacts of a whole chain in the window: mean over realisations with at least one.
+    /// Impacts of a whole chain in the window: mean over the active ones.
     pub impacts: Option<Mean>,
-    /// Masses of a whole chain that are hit in the window: mean over those with an impact.
+    /// Masses of a whole chain that are hit in the window: mean over the active ones.
     pub masses: Option<Mean>,
     /// Numbers of realisations by their count k = 0..=N.
     pub counts: Vec<u32>,
@@ -77,7 +78,7 @@ pub struct CurveData<'a> {
     /// The window.
     pub protocol: Protocol,
     /// Its number among those of the counts, from 0 on.
-    pub window: usize,
+    pub window_index: usize,
     /// The standard deviations σ, rising.
     pub sigmas: &'a [f64],
     /// The counts at each σ.
@@ -97,10 +98,10 @@ impl Curve {
     /// Panics if the counts have no window of this number, or a count is above `gaps`.
     #[must_use]
     pub fn new(data: &CurveData) -> Curve {
-        let &CurveData { window, protocol, sigmas, counts, compared, gaps, seed } = data;
+        let &CurveData { window_index, protocol, sigmas, counts, compared, gaps, seed } = data;
         let mut distinct: Vec<&[Option<u32>]> = Vec::with_capacity(counts.len());
         for (counts, &compared) in counts.iter().zip(compared) {
-            distinct.push(if compared { &counts.distinct[window] } else { &[] });
+            distinct.push(if compared { &counts.distinct[window_index] } else { &[] });
         }
         let sample = Sample { sigmas, counts: distinct, gaps };
         let resampled = Resampled::new(&sample, seed);
@@ -109,7 +110,7 @@ impl Curve {
             |pick: &dyn Fn(&Places) -> Option<f64>| Some(resampled.estimate(pick)?.interval);
         let mut rows = Vec::with_capacity(counts.len());
         for (row, (&sigma, counts)) in sigmas.iter().zip(counts).enumerate() {
-            let mut point = RisePoint::new(sigma, counts, Column { window, largest });
+            let mut point = RisePoint::new(sigma, counts, Column { window_index, largest });
             point.mode_interval = resampled.mode_interval(row);
             if let Some(mean) = &mut point.mean {
                 mean.interval = interval(&|places| places.mean[row]);
@@ -127,7 +128,7 @@ impl Curve {
 #[derive(Clone, Copy, Debug)]
 pub struct Column {
     /// The number of the window, from 0 on.
-    pub window: usize,
+    pub window_index: usize,
     /// The largest count that is possible.
     pub largest: usize,
 }
@@ -139,27 +140,27 @@ impl RisePoint {
     /// Panics if the counts have no such window, or one is above the largest.
     #[must_use]
     pub fn new(sigma: f64, counts: &Counts, column: Column) -> RisePoint {
-        let Column { window, largest } = column;
+        let Column { window_index, largest } = column;
         let mut histogram = vec![0; largest + 1];
         let mut distinct = Vec::new();
-        for &k in counts.distinct[window].iter().flatten() {
+        for &k in counts.distinct[window_index].iter().flatten() {
             histogram[k as usize] += 1;
             distinct.push(f64::from(k));
         }
-        let above_zero: Vec<f64> = distinct.iter().copied().filter(|&k| k > 0.0).collect();
-        let mut histogram_above_zero = histogram.clone();
-        histogram_above_zero[0] = 0;
-        let runs = counts.impacts[window].iter().zip(&counts.masses[window]);
-        let hit = runs.filter(|(impacts, _)| **impacts > 0);
+        let active: Vec<f64> = distinct.iter().copied().filter(|&k| k > 0.0).collect();
+        let mut active_histogram = histogram.clone();
+        active_histogram[0] = 0;
+        let runs = counts.impacts[window_index].iter().zip(&counts.masses[window_index]);
+        let active_runs = runs.filter(|(impacts, _)| **impacts > 0);
         let (impacts, masses): (Vec<_>, Vec<_>) =
-            hit.map(|(&impacts, &masses)| (impacts as f64, f64::from(masses))).unzip();
+            active_runs.map(|(&impacts, &masses)| (impacts as f64, f64::from(masses))).unzip();
         RisePoint {
             sigma,
             ran: distinct.len(),
-            kept: above_zero.len(),
-            mean: Mean::from_sample(&above_zero),
+            active: active.len(),
+            mean: Mean::from_sample(&active),
             mean_all: Mean::from_sample(&distinct),
-            mode: mode(&histogram_above_zero),
+            mode: mode(&active_histogram),
             mode_interval: None,
             impacts: Mean::from_sample(&impacts),
             masses: Mean::from_sample(&masses),
@@ -190,7 +191,8 @@ mod tests {
         let protocol = Protocol { transient: 0.0, window: 1.0 };
         let compared = [true, true, true, false, true];
         let (sigmas, counts, compared) = (&sigmas[..], &counts[..], &compared[..]);
-        let data = CurveData { window: 0, protocol, sigmas, counts, compared, gaps: 10.0, seed: 1 };
+        let data =
+            CurveData { window_index: 0, protocol, sigmas, counts, compared, gaps: 10.0, seed: 1 };
         let curve = Curve::new(&data);
         let near =
             |place: Option<Estimate>, value: f64| (place.unwrap().value - value).abs() < 1e-14;
@@ -215,8 +217,8 @@ mod tests {
         let runs = runs.map(|(k, impacts, masses)| one(k, impacts, masses));
         let rejected = Counts { rejected: 1, ..one(None, 0, 0) };
         let counts: Counts = runs.into_iter().chain([rejected]).collect();
-        let row = RisePoint::new(0.1, &counts, Column { window: 0, largest: 10 });
-        assert_eq!((row.ran, row.kept, row.mode), (4, 3, Some(4)));
+        let row = RisePoint::new(0.1, &counts, Column { window_index: 0, largest: 10 });
+        assert_eq!((row.ran, row.active, row.mode), (4, 3, Some(4)));
         let mean = |mean: Option<Mean>| mean.map(|mean| (mean.value, mean.error.unwrap()));
         assert_eq!(mean(row.mean), Some((6.0, 2.0))); // s = √12, over √3
         assert_eq!(row.mean_all.unwrap().value, 4.5);

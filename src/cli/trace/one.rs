@@ -243,7 +243,7 @@ impl Job {
         let period = TAU / frequency;
         let times: Box<dyn Iterator<Item = f64>> = match times {
             Times::Values(times) => Box::new(times.iter().copied()),
-            Times::Period => {
+            Times::OncePerPeriod => {
                 let multiples = (from / period) as u64..;
                 Box::new(multiples.map(|k| k as f64 * period).skip_while(|time| *time < from))
             }
@@ -308,9 +308,9 @@ fn in_file(name: &str, error: Error) -> Failure {
         Error::Input { ref field, .. } if ["step", "tolerance"].contains(&field.as_str()) => {
             Failure::input(format!("--{error}"))
         }
-        error => Failure::input(format!(
-            "{name}: {}",
-            one_line(&in_plain_words(&error.to_string()), 1000)
-        )),
+        error => {
+            let message = one_line(&in_plain_words(&error.to_string()), 1000);
+            Failure::input(format!("{name}: {message}"))
+        }
     }
 }

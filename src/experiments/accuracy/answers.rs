@@ -17,7 +17,7 @@ use literate::table::Building;
 /// How far a mean may be off, relative to it, at each σ.
 const MEANS: [(f64, f64); 4] = [(0.11, 0.05), (0.12, 0.05), (0.14, 0.01), (0.115, 0.05)];
 
-/// How far the share of chains with an impact may be off, and the half height, relative to it.
+/// How far the share of active chains may be off, and the half height, relative to it.
 const ALIKE: f64 = 0.01;
 
 /// Times to which an orbit is wanted, in units of 1/ω, and the share of chains in which it is.
@@ -127,19 +127,16 @@ pub fn tables(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
     let orbits = ORBITS.map(|until| [false, true].map(|is_generic| orbits(is_generic, until)));
     let programs = results.of(&PROGRAMS).ok()?;
     let trials = results.of(&TRIALS).ok()?;
+    const GAP: &str = "gap between balls of the cradle as the first comes";
+    const RESTS: &str = "programs with a setting right wherever masses rest";
+    const GRAZES: &str = "programs with a setting that sees every graze and nothing else";
     let summary = Table::builder("answers.all", &[()], |()| cases_at_rest(trials))
         .chosen("share", "1", "share of chains in which an orbit must be right", |()| Some(MOST))
         .chosen("tie", "1", "times that differ by less than this factor tie", |()| Some(TIE))
         .computed_by(origin(tables))
-        .real("cradle", "d", 1, "gap between balls of the cradle as the first comes", |()| {
-            cradle(trials)
-        })
-        .words("rest", "programs with a setting right wherever masses rest", |()| {
-            names(programs, &REST)
-        })
-        .words("grazes", "programs with a setting that sees every graze and nothing else", |()| {
-            names(programs, &["grazing-hits", "grazing-misses"])
-        })
+        .real("cradle", "d", 1, GAP, |()| cradle(trials))
+        .words("rest", RESTS, |()| names(programs, &REST))
+        .words("grazes", GRAZES, |()| names(programs, &["grazing-hits", "grazing-misses"]))
         .done();
     let [means, generic] =
         [false, true].map(|is_generic| questions(biases, Times { measured, is_generic }));
@@ -189,7 +186,7 @@ fn table<'a>(
 type Runs<'a> = (&'a Vec<Vec<GapCount>>, &'a Vec<GapCount>);
 
 /// A question about means over chains at some σ.
-struct Asked<'a> {
+struct Query<'a> {
     id: String,
     words: String,
     sigmas: &'a [f64],
@@ -203,10 +200,10 @@ struct Asked<'a> {
 fn question(
     biases: &Biases,
     times: Times,
-    asked: Asked,
+    query: Query,
     errors: impl Fn(&[Vec<[f64; 2]>]) -> Vec<f64>,
 ) -> Option<Question> {
-    let Asked { id, words, sigmas, tolerance, is_share } = asked;
+    let Query { id, words, sigmas, tolerance, is_share } = query;
     let find = |sigma: &f64| {
         let runs = biases.runs.iter().zip(&biases.again);
         biases.parameters.means.iter().zip(runs).find(|(means, _)| means.chains.sigma == *sigma)
@@ -223,9 +220,8 @@ fn question(
         let errors = errors(&pairs);
         let result = match setting.method {
             Certified => {
-                let own = ensembles
-                    .iter()
-                    .map(|(_, (runs, again))| own_error([&runs[0], again], runs[0].len()));
+                let runs = ensembles.iter().map(|(_, runs)| runs);
+                let own = runs.map(|(runs, again)| own_error([&runs[0], again], runs[0].len()));
                 with_error(0.0, if is_share { 0.0 } else { own.fold(0.0, f64::max) })
             }
             // Where all chains agree, only of a share one knows how often they would not.
@@ -250,7 +246,7 @@ fn question(
     Some(Question { id, words, answers })
 }
 
-/// Questions about means: of gaps with an impact, of chains with any, and where the first rises.
+/// Questions about means: of gaps with an impact, of active chains, and where the first rises.
 fn questions(biases: &Biases, times: Times) -> Vec<Question> {
     let ours = |pairs: &[[f64; 2]]| mean(&pairs.iter().map(|pair| pair[1]).collect::<Vec<_>>());
     let mut questions = Vec::new();
@@ -260,8 +256,8 @@ fn questions(biases: &Biases, times: Times) -> Vec<Question> {
         let percent = 100.0 * tolerance;
         let words = format!("a mean to {percent} %, $σ = {sigma}$, $T = {transient}$");
         let id = format!("mean-{sigma}");
-        let asked = Asked { id, words, sigmas: &[sigma], tolerance, is_share: false };
-        questions.extend(question(biases, times, asked, |pairs| {
+        let query = Query { id, words, sigmas: &[sigma], tolerance, is_share: false };
+        questions.extend(question(biases, times, query, |pairs| {
             let [theirs, ours] = [0, 1].map(|i| pairs[0].iter().map(|pair| pair[i]).sum::<f64>());
             let (ratio, mean) = (theirs / ours, ours / pairs[0].len() as f64);
             let residual = |pair: &[f64; 2]| (pair[0] - ratio * pair[1]) / mean + ratio - 1.0;
@@ -272,15 +268,15 @@ fn questions(biases: &Biases, times: Times) -> Vec<Question> {
     let words =
         format!("the share of chains with an impact to {percent} percentage point, $σ = {low}$");
     let (tolerance, id) = (ALIKE, "share".into());
-    let asked = Asked { id, words, sigmas: &[low], tolerance, is_share: true };
-    questions.extend(question(biases, times, asked, |pairs| {
+    let query = Query { id, words, sigmas: &[low], tolerance, is_share: true };
+    questions.extend(question(biases, times, query, |pairs| {
         let any = |count: f64| f64::from(u8::from(count > 0.0));
         pairs[0].iter().map(|pair| any(pair[0]) - any(pair[1])).collect()
     }));
     let words = format!("the half height of the rise to {percent} %");
     let (sigmas, id) = (&[low, high], "rise".into());
-    let asked = Asked { id, words, sigmas, tolerance, is_share: false };
-    questions.extend(question(biases, times, asked, |pairs| {
+    let query = Query { id, words, sigmas, tolerance, is_share: false };
+    questions.extend(question(biases, times, query, |pairs| {
         let half = 0.5 * (1 + biases.parameters.means[0].chains.chain.masses) as f64;
         let [below, above] = [0, 1].map(|i| ours(&pairs[i]).unwrap_or(f64::NAN));
         let slope = (above - below) / (high - low);

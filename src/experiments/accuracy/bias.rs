@@ -41,11 +41,9 @@ pub fn run(parameters: &BiasParams, progress: &Progress) -> Result<Biases, Error
                 return together(means, false);
             }
             if setting.method == MethodName::VerletAbreast {
-                let drawn = (0..realisations as u64).map(|index| means.chains.scenario(index));
-                let (scenarios, window) = (
-                    drawn.collect::<Vec<_>>(),
-                    Some(Window { after: means.transient, ends_with_one: false }),
-                );
+                let scenarios = (0..realisations as u64).map(|index| means.chains.scenario(index));
+                let scenarios: Vec<_> = scenarios.collect();
+                let window = Some(Window { after: means.transient, ends_with_one: false });
                 let verlet = VerletAbreast { step: setting.value };
                 let ran = verlet.run_all(&scenarios, means.chains.until, window, &mut |_, _| true);
                 let (_, counts) = ran.map_err(|source| Error::failed("bias", source))?;

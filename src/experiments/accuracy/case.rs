@@ -147,8 +147,8 @@ impl Case {
     /// Returns the outcome of a run with these impacts.
     pub fn judge(&self, impacts: &[Impact]) -> Outcome {
         let counts = |impact: &Impact| impact.time <= self.until && self.expected.counts(impact);
-        let counted = impacts.iter().copied().filter(counts);
-        let seen: Vec<Impact> = counted.take(self.expected.enough()).collect();
+        let relevant = impacts.iter().copied().filter(counts);
+        let seen: Vec<Impact> = relevant.take(self.expected.enough()).collect();
         match &self.expected {
             Expected::Impacts { impacts, within, .. } => in_order(impacts, *within, &seen),
             Expected::Speed { impacts, .. } if seen.len() < *impacts => Outcome::Missed,

@@ -85,9 +85,9 @@ fn targets(number: usize, courses: &[Course]) -> Result<Vec<Target>, impact_chai
     let mut targets = Vec::with_capacity(number);
     for Course { scenario, hits } in courses {
         let last = hits.len().saturating_sub(1);
-        let wanted = (number / courses.len()).min(last);
-        for i in 0..wanted {
-            let (_, state) = &hits[i * last / wanted];
+        let count = (number / courses.len()).min(last);
+        for i in 0..count {
+            let (_, state) = &hits[i * last / count];
             let scenario = state.as_scenario(scenario)?;
             let state = State { time: 0.0, ..state.clone() };
             let mut truth = TrueMotion::from_state(&scenario, &state);

@@ -154,28 +154,28 @@ pub fn bias(biases: &Biases) -> Vec<Table> {
         (means.chains.sigma, counts, own_error(ours, runs[0].len()))
     });
     let engine: Vec<_> = engine.collect();
+    const CHAOS: &str = "its error that chaos makes of roundings, over it";
     let means = Table::builder("bias.means", &engine, |(_, counts, _)| counts.len())
         .key("sigma", SIGMA, |row| row.0)
         .computed_by(origin(bias::run))
         .real("mean", "1", 3, "mean number of impacting gaps, by the engine", |row| mean(&row.1))
-        .real("chaos", "1", 1, "its error that chaos makes of roundings, over it", |row| {
-            Some(row.2)
-        })
+        .real("chaos", "1", 1, CHAOS, |row| Some(row.2))
         .done();
     vec![cells, means]
 }
 
 pub fn scale(scale: &Scale) -> Vec<Table> {
-    let methods = scale.chunk_by(|a, b| a.0.method == b.0.method);
+    let methods = scale.chunk_by(|a, b| a.setting.method == b.setting.method);
     let ends: Vec<_> = methods.map(|rows| (&rows[0], &rows[rows.len() - 1])).collect();
+    const WORK: &str = "evaluations per impact";
     let table = Table::builder("scale.ends", &ends, |_| 1)
-        .text_key("method", |(few, _)| few.0.method.id().into())
-        .chosen("setting", TIME, "step or tolerance", |(few, _)| Some(few.0.value))
-        .chosen("small", "1", "fewest masses", |(few, _)| Some(few.1 as f64))
-        .chosen("large", "1", "most masses", |(_, many)| Some(many.1 as f64))
+        .text_key("method", |(few, _)| few.setting.method.id().into())
+        .chosen("setting", TIME, "step or tolerance", |(few, _)| Some(few.setting.value))
+        .chosen("small", "1", "fewest masses", |(few, _)| Some(few.masses as f64))
+        .chosen("large", "1", "most masses", |(_, many)| Some(many.masses as f64))
         .computed_by(origin(scale::run))
-        .real("work_small", "1", 2, "evaluations per impact", |(few, _)| few.2)
-        .real("work_large", "1", 2, "evaluations per impact", |(_, many)| many.2)
+        .real("work_small", "1", 2, WORK, |(few, _)| few.evaluations_per_impact)
+        .real("work_large", "1", 2, WORK, |(_, many)| many.evaluations_per_impact)
         .done();
     vec![table]
 }

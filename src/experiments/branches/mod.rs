@@ -18,5 +18,5 @@ pub const BRANCHES: Experiment<Vec<Ensemble>, Vec<Chains>, Counts> = Experiment 
     reads: &[],
     parameters: params::branches,
     how: Cut("branches", run::CUTTING),
-    tables: tables::tables,
+    tables: tables::make,
 };

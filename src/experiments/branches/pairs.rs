@@ -47,8 +47,8 @@ impl Branch {
     pub fn share(&self, sigma: f64, without: Option<usize>) -> Option<f64> {
         let place = self.sigmas.iter().position(|other| *other == sigma)?;
         let chains = self.shares[place].iter().enumerate();
-        let used = chains.filter(|(chain, _)| Some(*chain) != without);
-        mean(&used.filter_map(|(_, share)| *share).collect::<Vec<_>>())
+        let others = chains.filter(|(chain, _)| Some(*chain) != without);
+        mean(&others.filter_map(|(_, share)| *share).collect::<Vec<_>>())
     }
 
     /// Returns the half height of the mean over all chains but one, or `None` if it is not passed.
@@ -68,8 +68,8 @@ impl Branch {
     pub fn coarser(&self, without: Option<usize>) -> Option<f64> {
         let ([low, high], half) = (self.neighbours()?, self.half_height(None)?);
         let nearest = if half - low < high - half { low } else { high };
-        let used = self.sigmas.iter().zip(&self.shares).filter(|(sigma, _)| **sigma != nearest);
-        let (sigmas, shares) = used.map(|(sigma, shares)| (*sigma, shares.clone())).unzip();
+        let others = self.sigmas.iter().zip(&self.shares).filter(|(sigma, _)| **sigma != nearest);
+        let (sigmas, shares) = others.map(|(sigma, shares)| (*sigma, shares.clone())).unzip();
         Some(Branch { sigmas, shares }.half_height(without)? - self.half_height(without)?)
     }
 }

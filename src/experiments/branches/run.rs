@@ -1,7 +1,7 @@
 //! Counts chains from rest and from above; the latter run well beyond the rise first, then all
 //! forces are lowered by one factor. Chain i has the same forces on both branches and at every σ.
 
-use crate::experiments::ensembles::{joined, part, rows};
+use crate::experiments::ensembles::{EnsembleCounts, join_counts, part, unit_rows};
 use crate::experiments::prelude::*;
 use crate::params::Ensemble;
 use impact_chain::Counts;
@@ -15,7 +15,8 @@ pub struct Chains {
     pub counts: Vec<Vec<Vec<Option<u32>>>>,
 }
 
-pub const CUTTING: Cutting<Vec<Ensemble>, Counts, Vec<Chains>> = Cutting { rows, part, join };
+pub const CUTTING: Cutting<Vec<Ensemble>, Counts, Vec<Chains>> =
+    Cutting { rows: unit_rows, part, join };
 
 fn join(
     ensembles: &Vec<Ensemble>,
@@ -23,9 +24,9 @@ fn join(
     progress: &Progress,
 ) -> Result<Vec<Chains>, Error> {
     progress.check()?;
-    let chains = |(ensemble, counts): (Ensemble, Vec<Counts>)| {
+    let chains = |EnsembleCounts { ensemble, counts }| {
         let counts = counts.into_iter().map(|counts| counts.distinct).collect();
         Chains { ensemble, counts }
     };
-    Ok(joined(ensembles, parts).map(chains).collect())
+    Ok(join_counts(ensembles, parts).map(chains).collect())
 }

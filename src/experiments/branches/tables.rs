@@ -5,7 +5,7 @@ use super::pairs::{Branch, FROM_ABOVE, FROM_REST, Pair, distance};
 use super::run::Chains;
 use crate::experiments::prelude::*;
 
-pub fn tables(chains: &Vec<Chains>) -> Vec<Table> {
+pub fn make(chains: &Vec<Chains>) -> Vec<Table> {
     let pairs = Pair::collect(chains);
     let lengths: Vec<&[Pair]> = pairs.chunk_by(|a, b| a.masses == b.masses).collect();
     vec![

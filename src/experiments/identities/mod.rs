@@ -49,16 +49,14 @@ pub fn tables() -> Vec<Table> {
         .done();
     let ranges = Table::builder("theory.class_ranges", &circuits::class_ranges(&census), |_| 0)
         .computed_by(origin(circuits::class_ranges))
-        .key("equation", "1", |range| range.equation)
-        .count("right_from", "the length from which on it is right", |range| {
-            range.right_from as u64
+        .key("equation", "1", |one| one.equation)
+        .count("right_from", "the length from which on it is right", |one| one.right_from as u64)
+        .count("compared", "cases from that length on", |one| one.cases[0])
+        .count("failed", "of these", |one| one.cases[1])
+        .real("formula_below", "1", 2, "one length below, on three vertices", |one| {
+            one.formula_below
         })
-        .count("compared", "cases from that length on", |range| range.cases[0])
-        .count("failed", "of these", |range| range.cases[1])
-        .real("formula_below", "1", 2, "one length below, on three vertices", |range| {
-            range.formula_below
-        })
-        .count("counted_below", "the circuits there", |range| range.counted_below as u64)
+        .count("counted_below", "the circuits there", |one| one.counted_below as u64)
         .done();
     vec![cases, differences, ranges]
 }

@@ -12,11 +12,11 @@ use impact_chain::Counts;
 use literate::experiments::Experiment;
 use literate::experiments::experiment::How::Cut;
 
-pub const JUMP: Experiment<Vec<Ensemble>, Jumps, Counts> = Experiment {
+pub const MODE_JUMP: Experiment<Vec<Ensemble>, Jumps, Counts> = Experiment {
     name: "jump",
     own: &["src/experiments/jump", "src/experiments/ensembles.rs"],
     reads: &[],
     parameters: params::jump,
     how: Cut("jump of the mode", run::CUTTING),
-    tables: tables::tables,
+    tables: tables::make,
 };

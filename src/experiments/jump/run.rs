@@ -1,6 +1,6 @@
 //! Counts independent chains at each σ, and finds the jump of the mode in each window.
 
-use crate::experiments::ensembles::{joined, part, rows};
+use crate::experiments::ensembles::{EnsembleCounts, join_counts, part, unit_rows};
 use crate::experiments::prelude::*;
 use crate::params::{Boundary, Ensemble, Protocol};
 use impact_chain::Counts;
@@ -8,9 +8,7 @@ use impact_chain::mode_jump::{Histogram, ModeJump, Sample, mode_jump};
 use literate::experiments::cutting::Cutting;
 use rayon::prelude::*;
 
-type Counted = (Ensemble, Vec<Counts>);
-
-pub const CUTTING: Cutting<Vec<Ensemble>, Counts, Jumps> = Cutting { rows, part, join };
+pub const CUTTING: Cutting<Vec<Ensemble>, Counts, Jumps> = Cutting { rows: unit_rows, part, join };
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Jumps {
@@ -56,22 +54,22 @@ fn join(
     parts: Vec<Vec<Counts>>,
     progress: &Progress,
 ) -> Result<Jumps, Error> {
-    let (rings, walls): (Vec<Counted>, Vec<Counted>) =
-        joined(ensembles, parts).partition(|(one, _)| one.chain.boundary == Boundary::Ring);
+    let (rings, walls): (Vec<_>, Vec<_>) = join_counts(ensembles, parts)
+        .partition(|one| one.ensemble.chain.boundary == Boundary::Ring);
     let protocols = ensembles.first().map_or(&[][..], |ensemble| &ensemble.protocols);
-    let samples = |window: usize| samples_of(&walls, window);
+    let samples = |window_index: usize| samples_of(&walls, window_index);
     let gaps = ensembles.first().map_or(0, |ensemble| ensemble.chain.gaps());
-    let window = |(window, &protocol): (usize, &Protocol)| {
+    let find_jump = |(window_index, &protocol): (usize, &Protocol)| {
         progress.check()?;
-        Ok(window_jump(protocol, &samples(window), gaps))
+        Ok(window_jump(protocol, &samples(window_index), gaps))
     };
-    let windows = protocols.par_iter().enumerate().with_max_len(1).map(window);
+    let windows = protocols.par_iter().enumerate().with_max_len(1).map(find_jump);
     let windows = windows.collect::<Result<Vec<_>, Error>>()?;
-    let ring_gaps = rings.first().map_or(0, |(ensemble, _)| ensemble.chain.gaps());
+    let ring_gaps = rings.first().map_or(0, |one| one.ensemble.chain.gaps());
     let ring = window_jump(Protocol::default(), &samples_of(&rings, 0), ring_gaps);
     let ours = protocols.iter().position(|protocol| *protocol == Protocol::default());
     let place = |half_width: usize| {
-        let jump = ours.map(|window| mode_jump(&samples(window), Histogram { gaps, half_width }));
+        let jump = ours.map(|index| mode_jump(&samples(index), Histogram { gaps, half_width }));
         (half_width, jump.and_then(|jump| jump.all_gaps.sigma))
     };
     let widths = HALF_WIDTHS.into_par_iter().map(place).collect();
@@ -91,12 +89,12 @@ fn window_jump(protocol: Protocol, samples: &[Sample<'_>], gaps: usize) -> Windo
 }
 
 /// Returns the counts of a window at each σ.
-fn samples_of(counted: &[Counted], window: usize) -> Vec<Sample<'_>> {
+fn samples_of(ensembles: &[EnsembleCounts], window_index: usize) -> Vec<Sample<'_>> {
     let mut samples = Vec::new();
-    for (ensemble, counts) in counted {
+    for EnsembleCounts { ensemble, counts } in ensembles {
         samples.push(Sample {
             sigma: ensemble.sigmas[0],
-            counts: &counts[0].distinct[window],
+            counts: &counts[0].distinct[window_index],
             seed: ensemble.seed + ensemble.first,
         });
     }

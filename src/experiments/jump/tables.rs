@@ -5,20 +5,16 @@ use crate::experiments::prelude::*;
 use crate::params::Protocol;
 use impact_chain::mode_jump::{Passing, mode_jump};
 
-pub fn tables(jumps: &Jumps) -> Vec<Table> {
-    vec![run(jumps), windows(jumps), ring(jumps), widths(jumps)]
-        .into_iter()
-        .chain(
-            jumps
-                .window(Protocol::default())
-                .into_iter()
-                .flat_map(|ours| [rows(ours), distributions(ours)]),
-        )
-        .collect()
+pub fn make(jumps: &Jumps) -> Vec<Table> {
+    let mut tables = vec![run(jumps), windows(jumps), ring(jumps), widths(jumps)];
+    if let Some(ours) = jumps.window(Protocol::default()) {
+        tables.extend([rows(ours), distributions(ours)]);
+    }
+    tables
 }
 
 fn run(jumps: &Jumps) -> Table {
-    let counted = |outcome: Option<bool>| {
+    let count = |outcome: Option<bool>| {
         let same = |window: &&WindowJump| window.jump.all_gaps.is_jump() == outcome;
         jumps.windows.iter().filter(same).count() as u64
     };
@@ -28,11 +24,9 @@ fn run(jumps: &Jumps) -> Table {
         .count("sigmas", "values of σ", |_| first.map_or(0, |one| one.histograms.len() as u64))
         .count("windows", "windows", |jumps| jumps.windows.len() as u64)
         .computed_by(origin(Passing::is_jump))
-        .count("jumps", "windows in which the mode surely jumps to all gaps", |_| {
-            counted(Some(true))
-        })
-        .count("climbs", "windows in which it surely climbs there", |_| counted(Some(false)))
-        .count("open", "windows in which the sample does not tell", |_| counted(None))
+        .count("jumps", "windows in which the mode surely jumps to all gaps", |_| count(Some(true)))
+        .count("climbs", "windows in which it surely climbs there", |_| count(Some(false)))
+        .count("open", "windows in which the sample does not tell", |_| count(None))
         .done()
 }
 
@@ -45,6 +39,7 @@ const BELOW: &str = "number of gaps at that peak";
 const CLEARANCE: &str = "likeliest number between, below both by this part";
 const SINGLE: &str = "σ where a single gap is as likely as the peak of the bulk";
 const JUMPS: &str = "1 if the mode surely jumps, 0 if it surely climbs";
+const SINGLE_JUMPS: &str = "the same where a single gap is overtaken";
 
 fn windows(jumps: &Jumps) -> Table {
     Table::builder("jump.windows", &jumps.windows, |_| 0)
@@ -59,9 +54,7 @@ fn windows(jumps: &Jumps) -> Table {
         .estimate("single_clearance", "1", CLEARANCE, |window| window.jump.single_gap.clearance)
         .computed_by(origin(Passing::is_jump))
         .chosen("jumps", "1", JUMPS, |window| outcome(&window.jump.all_gaps))
-        .chosen("single_jumps", "1", "the same where a single gap is overtaken", |window| {
-            outcome(&window.jump.single_gap)
-        })
+        .chosen("single_jumps", "1", SINGLE_JUMPS, |window| outcome(&window.jump.single_gap))
         .done()
 }
 
@@ -98,21 +91,15 @@ fn rows(window: &WindowJump) -> Table {
         (_, Some(place)) if sigma > place.value => gaps as f64,
         _ => peak,
     };
+    const ONE: &str = "share of chains with one gap, of those with any";
+    const ALL: &str = "share of chains with all gaps, of those with any";
     Table::builder("jump.rows", &rows, |((row, _), _)| row.chains as usize)
         .key("sigma", SIGMA, |((row, _), _)| row.sigma)
         .computed_by(origin(mode_jump))
-        .estimate(
-            "single",
-            "1",
-            "share of chains with one gap, of those with any",
-            |(both, own)| share(u64::from(own[1]), both.0.chains as u64),
-        )
-        .estimate(
-            "all",
-            "1",
-            "share of chains with all gaps, of those with any",
-            |((row, _), _)| share((row.end * row.chains).round() as u64, row.chains as u64),
-        )
+        .estimate("single", "1", ONE, |((row, _), own)| share(own[1].into(), row.chains as u64))
+        .estimate("all", "1", ALL, |((row, _), _)| {
+            share((row.end * row.chains).round() as u64, row.chains as u64)
+        })
         .real("bulk", "1", 3, "share at the peak of the bulk", |((row, _), _)| row.bulk)
         .estimate("peak", "1", "number of gaps at that peak", |((_, peak), _)| **peak)
         .chosen("mode", "1", "most likely number of gaps", |((row, peak), own)| {

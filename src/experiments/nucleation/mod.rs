@@ -14,5 +14,5 @@ pub const NUCLEATION: Experiment<NucleationParams, Nucleation> = Experiment {
     reads: &[],
     parameters: NucleationParams::new,
     how: Whole(run::run, |parameters| parameters.chains() * SECOND / 30_000),
-    tables: tables::tables,
+    tables: tables::make,
 };

@@ -9,20 +9,20 @@ struct Chains {
     sigma: f64,
     time: f64,
     ran: u64,
-    /// Those of them with an impact by then.
-    hit: u64,
+    /// The active ones of them, with an impact by then.
+    active: u64,
     expected: f64,
 }
 
-pub fn tables(nucleation: &Nucleation) -> Vec<Table> {
+pub fn make(nucleation: &Nucleation) -> Vec<Table> {
     let (parameters, gaps) = (&nucleation.parameters, &nucleation.gaps);
     let mut chains = Vec::new();
     for ((runs, firsts), gaps) in parameters.runs().zip(&nucleation.rows).zip(gaps.iter().cycle()) {
         for (&time, chances) in parameters.times.iter().zip(&gaps.within) {
-            let hit = firsts.iter().flatten().filter(|first| **first <= time).count() as u64;
+            let active = firsts.iter().flatten().filter(|first| **first <= time).count() as u64;
             let (masses, sigma, ran) = (runs.chain.masses, runs.sigma, firsts.len() as u64);
             let expected = chances.at_least_one(masses, runs.chain.boundary);
-            chains.push(Chains { masses, sigma, time, ran, hit, expected });
+            chains.push(Chains { masses, sigma, time, ran, active, expected });
         }
     }
     let lengths: Vec<usize> = parameters.lengths.iter().map(|(masses, _)| *masses).collect();
@@ -43,7 +43,7 @@ fn single(gaps: &[Gaps]) -> Table {
         .done()
 }
 
-/// Makes the table of the share of the chains with an impact by the latest time, at more σ.
+/// Makes the table of the share of chains that are active by the latest time, at more σ.
 fn shares(lengths: &[usize], curve: &[(f64, Chances)]) -> Table {
     let expected = |(masses, (sigma, chances)): (usize, &(f64, Chances))| {
         (masses, *sigma, chances.at_least_one(masses, Chain::default().boundary))
@@ -78,7 +78,7 @@ fn chains_table(rows: &[Chains]) -> Table {
         .key("masses", "1", |row| row.masses as f64)
         .key("sigma", SIGMA, |row| row.sigma)
         .key("time", TIME, |row| row.time)
-        .estimate("found", "1", FOUND, |row| share(row.hit, row.ran))
+        .estimate("found", "1", FOUND, |row| share(row.active, row.ran))
         .real("clumps", "1", 3, "expected with clumps", |row| row.expected)
         .done()
 }
@@ -89,7 +89,7 @@ fn all(chains: &[Chains], lengths: &[usize], half: f64) -> Table {
     let last = chains.last().map(|row| row.time);
     let off = |masses: usize| {
         let rows = chains.iter().filter(|row| row.masses == masses && Some(row.time) == last);
-        let off = |row: &Chains| (row.hit as f64 / row.ran as f64 - row.expected).abs();
+        let off = |row: &Chains| (row.active as f64 / row.ran as f64 - row.expected).abs();
         rows.map(off).fold(0.0, f64::max)
     };
     Table::builder("nucleation.all", &[()], |()| 0)

@@ -3,6 +3,7 @@
 use crate::experiments::prelude::*;
 use crate::experiments::theory::comparison::root_mean_square;
 use crate::experiments::{PROTOCOL, SEEDS, SWEEP};
+use crate::params::Protocol;
 
 const OFF: &str =
     "root mean square distance of the predicted mean counts from the simulated ones, in gaps";
@@ -20,7 +21,8 @@ pub fn tables(results: &Results, computed: &[Table]) -> Option<Vec<Table>> {
     let map = find_ensemble(results.of(&PROTOCOL).ok()?, "protocol")?;
     let window = seeds.window as f64 * seeds.bin;
     let transients = rise.distinct("transient").ok()?.into_iter();
-    let cells: Vec<&Curve> = transients.filter_map(|time| map.curve(time, window)).collect();
+    let cells = transients.filter_map(|transient| map.find_curve(Protocol { transient, window }));
+    let cells: Vec<&Curve> = cells.collect();
     let everywhere = |sigma: &f64| cells.iter().all(|cell| mean(cell, *sigma).is_some());
     let sigmas: Vec<f64> = seeds.sigmas.iter().copied().filter(everywhere).collect();
     let off = |cell: &Curve, predicted: &[(f64, f64)]| {

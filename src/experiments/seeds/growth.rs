@@ -23,12 +23,12 @@ pub(super) const GROUPS: usize = 8;
 
 /// Counts by distance at each σ, without each group of runs in turn, and last of all of them.
 pub(super) fn sums(parameters: &SeedsParams, rows: &[Part]) -> Vec<Vec<ByDistance>> {
-    let grouped = |part: &Part| {
+    let group = |part: &Part| {
         let begin = |group: usize| group * part.len() / GROUPS;
         let group = |group| ByDistance::count(parameters, &part[begin(group)..begin(group + 1)]);
         ByDistance::sums(&(0..GROUPS).map(group).collect::<Vec<_>>())
     };
-    rows.par_iter().map(grouped).collect()
+    rows.par_iter().map(group).collect()
 }
 
 /// Mean counts after one transient.

@@ -21,5 +21,5 @@ pub const SEEDS: Experiment<SeedsParams, Seeds> = Experiment {
     how: Whole(run, |parameters| {
         (parameters.sigmas.len() * parameters.realisations) as u64 * SECOND / 600
     }),
-    tables: tables::tables,
+    tables: tables::make,
 };

@@ -16,7 +16,7 @@ struct RunsAtSigma<'a> {
     fronts: Vec<Fronts>,
 }
 
-pub fn tables(seeds: &Seeds) -> Vec<Table> {
+pub fn make(seeds: &Seeds) -> Vec<Table> {
     let parameters = &seeds.parameters;
     let sums = sums(parameters, &seeds.rows);
     let mut rows = Vec::new();
@@ -137,7 +137,7 @@ mod tests {
             None,
             run([0b0010, 0b0001, 0b0010], [Some(30), Some(0), Some(40)]),
         ]];
-        let tables = tables(&Seeds::new(parameters, rows));
+        let tables = make(&Seeds::new(parameters, rows));
         let [course, advance, fronts, ..] = &tables[..] else { panic!() };
         let count = |until: f64, column| course.number(&[("until", until)], column).unwrap();
         let columns = ["reached", "active"];

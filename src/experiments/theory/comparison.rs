@@ -48,12 +48,12 @@ pub(crate) fn distance(means: &[(f64, f64)], curve: &[(f64, f64)]) -> Option<f64
 }
 
 pub fn tables(results: &Results, computed: &[Table]) -> Option<Vec<Table>> {
-    let sweep = sweep::main(results).ok()?;
+    let sweep = sweep::main_sweep(results).ok()?;
     let table = |name| computed.iter().find(|table| table.name() == name);
     let (curve, relation) = (table("theory.curve")?, table("theory.relation")?);
     let column = |name| curve.curve(&[], "sigma", name).ok();
     let (simple, higher) = (&column("simple")?, &column("higher")?);
-    let rows = &sweep.first().rows;
+    let rows = &sweep.first_curve().rows;
     let means_by = |mean: fn(&RisePoint) -> Option<Mean>| -> Vec<(f64, f64)> {
         rows.iter().filter_map(|row| Some((row.sigma, mean(row)?.value))).collect()
     };
@@ -66,7 +66,7 @@ pub fn tables(results: &Results, computed: &[Table]) -> Option<Vec<Table>> {
     const SIMPLE: &str = "root mean square distance of the means, simple circuits";
     let of_active = increases(&means, finest);
     let of_all = increases(&means_by(|row| row.mean_all), finest);
-    let half = sweep.first().rise.half_height.zip(relation.number(&[], "sigma_half").ok());
+    let half = sweep.first_curve().rise.half_height.zip(relation.number(&[], "sigma_half").ok());
     let half_gap = half.map(|(half, theory)| theory - half.value);
     let table = Table::builder("sweep.against_theory", &[()], |()| 0)
         .computed_by(origin(largest_distance))

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 const FEW: usize = 3;
 
 fn drawn() -> Vec<f64> {
-    Grid::default().and(0, 500, 1, 200).values()
+    Grid::default().and(0..=500, 200).values()
 }
 
 pub(super) fn large() -> Table {

@@ -39,7 +39,7 @@ pub fn steps() -> Vec<(f64, usize)> {
 
 /// Returns μ(p) of simple circuits, finer where it rises: Fig. 9 (b).
 pub fn means() -> Vec<(f64, f64)> {
-    let grid = Grid::default().and(0, 400, 1, 10_000).and(9, 200, 1, 200).values();
+    let grid = Grid::default().and(0..=400, 10_000).and(9..=200, 200).values();
     grid.into_iter().map(|p| (p, law(Simple, p).mean())).collect()
 }
 

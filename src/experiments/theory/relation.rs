@@ -43,8 +43,7 @@ fn half(p_of: fn(f64) -> f64, space: SampleSpace) -> f64 {
 
 /// Makes the table of curves against σ, finer where circuits of higher order add most.
 pub(super) fn curve() -> Table {
-    let sigmas =
-        Grid::default().and(20, 139, 1, 1000).and(700, 760, 1, 5000).and(153, 400, 1, 1000);
+    let sigmas = Grid::default().and(20..=139, 1000).and(700..=760, 5000).and(153..=400, 1000);
     let row = |sigma: f64| {
         let (p, rest) = (p_of(sigma), p_rest_of(sigma));
         let means = [(Simple, p), (FiveClasses, p), (Simple, rest)];
