@@ -166,8 +166,8 @@ impl<const M: usize> Piece<M> {
     }
 }
 
-/// Rounding of a coefficient: at most a dozen roundings of terms that are each below a few sizes.
-/// Few of them add up, so no test needs half of it; without it values at the ends may be off.
+/// Rounding of a coefficient, in units of the frame's size: at most a dozen roundings of terms that
+/// are each below a few sizes. Few of them add up: tests find b₁ and b₈ off by less than half of it.
 const SLACK: f64 = 64.0 * f64::EPSILON;
 
 impl Coefficients {
