@@ -60,7 +60,7 @@ impl Weights {
         }
     }
 
-    /// Returns whether the ratio of neighbours, ≤ p (N − k) (k + 3)/(k − 1), stays below 1 from here.
+    /// Returns whether the ratio of neighbours, ≤ p (N − k) (k + 3)/(k − 1), stays below 1.
     pub(crate) fn falls_from_here(&self) -> bool {
         let k = self.k as f64;
         let ratio = self.p.hi * (self.big_n - self.k) as f64;

@@ -131,8 +131,8 @@ impl ImpactProbability {
 
     /// Returns s ≤ t: d over twice the wider and the narrower Rayleigh scale.
     fn reduced_spacings(&self) -> (DoubleDouble, DoubleDouble) {
-        let (free, forced) =
-            (self.spacing_over_two_sigma, self.spacing_over_two_sigma * self.detuning);
+        let free = self.spacing_over_two_sigma;
+        let forced = free * self.detuning;
         if free <= forced { (free, forced) } else { (forced, free) }
     }
 
@@ -148,11 +148,9 @@ impl ImpactProbability {
         let forced = decay(square(t) / sum);
         let root = one_r.sqrt();
         let mixed = pxfm::f_erf(t.to_f64() / root) + pxfm::f_erf((s * ratio).to_f64() / root);
-        let factor = PI.sqrt() * (s * ratio).to_f64() / (one_r * root);
-        LeadingTerm {
-            exponent: square(s) / sum,
-            factor: (free + r * r * forced) / one_r + factor * mixed,
-        }
+        let weight = PI.sqrt() * (s * ratio).to_f64() / (one_r * root);
+        let factor = (free + r * r * forced) / one_r + weight * mixed;
+        LeadingTerm { exponent: square(s) / sum, factor }
     }
     // end
 
@@ -180,12 +178,10 @@ impl ImpactProbability {
         if exponent.hi.is_nan() || exponent.hi > LARGEST_EXPONENT {
             return Err(underflow("ln p(σ)", self.sigma, "give a larger sigma"));
         }
-        // Near p = 1, where ln B and E cancel, by 1 − p: sooner than p, whose digits are absolute.
-        if exponent.hi < 1.0 {
-            let complement = self.complement();
-            if complement < 0.5 {
-                return Ok(pxfm::f_log1p(-complement));
-            }
+        // Above p = 1/2, and not only near 1 as p, by 1 − p: there ln B and E cancel.
+        let complement = if exponent.hi < 1.0 { self.complement() } else { 1.0 };
+        if complement < 0.5 {
+            return Ok(pxfm::f_log1p(-complement));
         }
         Ok((dd(pxfm::f_log(factor)) - exponent).to_f64())
     }

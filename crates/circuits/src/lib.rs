@@ -17,7 +17,7 @@
 //! use impact_circuits::distribution::{Law, SampleSpace};
 //! use impact_circuits::jump;
 //!
-//! // A hundred gaps: where f of Eq. (12) has a double zero, and the distribution of X beyond the jump.
+//! // A hundred gaps: where f of Eq. (12) has a double zero, and the law of X beyond the jump.
 //! let p_crit = jump::p_crit(100)?;
 //! assert!((p_crit - 0.0122099).abs() < 1e-7);
 //! let law = Law::new(SampleSpace::Simple, 100, 0.02)?;

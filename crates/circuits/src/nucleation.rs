@@ -23,9 +23,9 @@
 //! torus of phases misses for ε of order T^{−2} only.
 //!
 //! # Two adjacent gaps
-//! Adjacent gaps share a mass, and with it the force on that mass: both amplitude differences contain
-//! it with opposite signs, so their covariance is −σ². In polar coordinates for the radii of
-//! the two, r_1 = s cos φ and r_2 = s sin φ, the integral over s is elementary, and three angles
+//! Adjacent gaps share a mass, and with it the force on that mass: both amplitude differences
+//! contain it with opposite signs, so their covariance is −σ². In polar coordinates for the radii
+//! of the two, r_1 = s cos φ and r_2 = s sin φ, the integral over s is elementary, and three angles
 //! are left. Where tan φ < m_2/m_1, m_i = d/M(θ_i), the second radius decides whether both close,
 //! and with t = tan φ
 //!
@@ -35,11 +35,11 @@
 //! v_1 and v_2 being the variances of the differences. The exponential is the only function needed.
 //!
 //! # At least one gap of a chain
-//! The gaps are 1-dependent: gaps that share no mass are independent, adjacent gaps are not, and those
-//! that close by themselves come in clumps. A clump begins at a gap that closes when the gap to its
-//! left does not. There is a gap that closes if and only if there is a clump, and beginnings of
-//! clumps are nearly independent: if their mean number is λ, there is no clump with a probability
-//! near e^{−λ}.
+//! The gaps are 1-dependent: gaps that share no mass are independent, adjacent gaps are not, and
+//! those that close by themselves come in clumps. A clump begins at a gap that closes when the gap
+//! to its left does not. There is a gap that closes if and only if there is a clump, and beginnings
+//! of clumps are nearly independent: if their mean number is λ, there is no clump with a
+//! probability near e^{−λ}.
 //!
 //! Dependence only makes chains without such a gap more frequent: in unlimited time a gap stays
 //! open in a set of forces that is convex and symmetric about zero, so that by the Gaussian
@@ -186,19 +186,18 @@ fn pair_probability(reach: &Reach, spacing: f64, sigma: f64, [v_1, v_2]: [f64; 2
     let rule = GaussLegendre::new(POINTS);
     let shared = sigma * sigma;
     let determinant = v_1 * v_2 - shared * shared;
-    let radii: Vec<f64> =
-        reach.radii.iter().copied().step_by(reach.radii.len() / PAIR_ANGLES).collect();
+    let step = (reach.radii.len() / PAIR_ANGLES).max(1);
+    let radii: Vec<f64> = reach.radii.iter().copied().step_by(step).collect();
     let angles = radii.len();
     let cosines: Vec<f64> = directions(angles).map(|[cos, _]| cos).collect();
     // The part where the gap of the least radius `m` and the variance `v` decides.
-    let part_decided_by =
-        |(m, v): (f64, f64), (other_m, other_v): (f64, f64), twice_shared: f64| {
-            rule.integrate(0.0, m / other_m, |t| {
-                let q = v + t * (twice_shared + other_v * t);
-                let half = 0.5 * m * m * q / (determinant * t * t);
-                t / (q * q) * (1.0 + half) * pxfm::f_exp(-half)
-            })
-        };
+    let decided_by = |(m, v): (f64, f64), (other_m, other_v): (f64, f64), twice_shared: f64| {
+        rule.integrate(0.0, m / other_m, |t| {
+            let q = v + t * (twice_shared + other_v * t);
+            let half = 0.5 * m * m * q / (determinant * t * t);
+            t / (q * q) * (1.0 + half) * pxfm::f_exp(-half)
+        })
+    };
     let mut sum = 0.0;
     for (i, first) in radii.iter().enumerate() {
         // With equal variances the order of the angles does not matter.
@@ -209,8 +208,7 @@ fn pair_probability(reach: &Reach, spacing: f64, sigma: f64, [v_1, v_2]: [f64; 2
             }
             let (one, two) = ((spacing / first, v_1), (spacing / second, v_2));
             let twice_shared = 2.0 * shared * cosines[(angles + i - j) % angles];
-            let both =
-                part_decided_by(two, one, twice_shared) + part_decided_by(one, two, twice_shared);
+            let both = decided_by(two, one, twice_shared) + decided_by(one, two, twice_shared);
             sum += if v_1 == v_2 && j < i { 2.0 * both } else { both };
         }
     }
@@ -233,9 +231,6 @@ pub struct Chances {
 
 impl Chances {
     /// Computes the chances within a reach, for forces of standard deviation `sigma`.
-    ///
-    /// # Panics
-    /// If the reach has less than [`PAIR_ANGLES`] angles.
     pub fn new(chain: &Chain, reach: &Reach, sigma: f64) -> Chances {
         let (mass, wall) = (2.0 * sigma * sigma, sigma * sigma);
         let d = chain.spacing;
@@ -345,7 +340,7 @@ mod tests {
         assert!((share - 0.5).abs() < 1e-4, "{share}");
     }
 
-    /// Adjacent gaps that both close, counted in 200 000 draws of forces, within four deviations; the
+    /// Adjacent gaps that both close, in 200 000 draws of forces, within four deviations; the
     /// reach differs between opposite angles, so that the sign of what the two share counts.
     #[test]
     fn adjacent_gaps_close_as_often_as_in_draws_of_their_forces() {

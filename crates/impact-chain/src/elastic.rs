@@ -10,11 +10,12 @@ use super::flight::Phases;
 use super::simulation::Simulation;
 use impact_numerics::double_double::DoubleDouble;
 
-/// Closing speed, in units of d ω, below which the frame of a gap is more accurate than the motions.
+/// Closing speed, in units of d ω, below which a gap's frame is more accurate than the motions.
 const LEAST_SPEED: f64 = 1e-3;
 
 impl<const M: usize> Simulation<M> {
-    /// Returns whether the impact of gap k is carried out by [`Self::reflect`], as it conserves the energy of its neighbours' free motion.
+    /// Returns whether the impact of gap k conserves the energy of its neighbours' free motion, so
+    /// that [`Self::reflect`] carries it out.
     #[inline(always)]
     pub(super) fn is_reflected(&self, k: usize, speed: f64) -> bool {
         self.restitution == 1.0 && {

@@ -24,8 +24,8 @@ use impact_numerics::roots::crossing;
 /// - Order: none; an impact that is found is accurate to rounding, and the step decides whether it
 ///   is found.
 /// - Fails: three zeros within a step are taken for one, often the wrong one; after an impact, two
-///   zeros within a step are taken for one. A chatter has infinitely many impacts in a finite time: the bound on
-///   work ends the run there, unless a least rebound speed is given.
+///   zeros within a step are taken for one. A chatter has infinitely many impacts in a finite time:
+///   the bound on work ends the run there, unless a least rebound speed is given.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sampled {
     /// Time h between two samples.
@@ -213,7 +213,8 @@ impl Gaps {
         })
     }
 
-    /// Searches the rest of the step for the zero of gap k; `start` is its width and rate at `from`.
+    /// Searches the rest of the step, from a time on, for the zero of gap k; `start` is its width and
+    /// rate then.
     fn locate(&mut self, k: usize, from: f64, start: [f64; 2], step: &Step, tally: &mut Tally) {
         tally.cost.evaluations += 2;
         let mut end = self.width_and_rate(k, step.phases);
@@ -332,7 +333,7 @@ impl Polynomial {
         Polynomial { terms }
     }
 
-    /// Evaluates the gap and its rate by the first `terms` terms, the even powers apart from the odd.
+    /// Evaluates the gap and its rate by the first `terms` terms, even powers apart from odd.
     #[inline(always)]
     fn value(&self, x: f64, terms: usize) -> [f64; 2] {
         let square = x * x;

@@ -56,24 +56,18 @@ pub enum HitGaps {
 }
 
 /// Receives the number of a chain and an impact; returns false to end the chain.
-pub type ChainSink<'a> = dyn FnMut(usize, Impact) -> bool + 'a;
+pub type ChainSink<'a> = &'a mut dyn FnMut(usize, Impact) -> bool;
 
 /// The number of a chain, and the amplitudes of its gaps.
 type ActiveChain = (usize, Vec<[f64; 4]>);
 
 impl VerletAbreast {
-    /// Runs chains that differ in forces and starts only, and hands each impact to `sink`,
-    /// sorted within a step.
+    /// Runs chains that differ in forces and starts only; hands on impacts, sorted within a step.
     ///
     /// # Errors
     /// As [`Method::run`], and [`Error::Input`] for different chains.
-    pub fn run_all(
-        &self,
-        scenarios: &[Scenario],
-        until: f64,
-        sink: &mut ChainSink,
-    ) -> Result<Cost, Error> {
-        Ok(self.simulate(scenarios, until, None, sink)?.0)
+    pub fn run_all(&self, chains: &[Scenario], until: f64, sink: ChainSink) -> Result<Cost, Error> {
+        Ok(self.simulate(chains, until, None, sink)?.0)
     }
 
     /// Runs chains likewise, and returns for each how many gaps have an impact in some steps.
@@ -82,25 +76,25 @@ impl VerletAbreast {
     /// As [`Self::run_all`].
     pub fn count_gaps(
         &self,
-        scenarios: &[Scenario],
+        chains: &[Scenario],
         until: f64,
         steps: CountedSteps,
     ) -> Result<(Cost, Vec<u32>), Error> {
-        self.simulate(scenarios, until, Some(steps), &mut |_, _| true)
+        self.simulate(chains, until, Some(steps), &mut |_, _| true)
     }
 
     /// Hands on impacts, or counts gaps if there are steps in which to count.
     fn simulate(
         &self,
-        scenarios: &[Scenario],
+        chains: &[Scenario],
         until: f64,
         counted: Option<CountedSteps>,
-        sink: &mut ChainSink,
+        sink: ChainSink,
     ) -> Result<(Cost, Vec<u32>), Error> {
         let (h, mut may_close, mut cost) = (self.step, Vec::new(), Cost::default());
-        let mut counts = vec![0; scenarios.len()];
-        let Some(first_scenario) = scenarios.first() else { return Ok((cost, counts)) };
-        for (number, scenario) in scenarios.iter().enumerate() {
+        let mut counts = vec![0; chains.len()];
+        let Some(first_scenario) = chains.first() else { return Ok((cost, counts)) };
+        for (number, scenario) in chains.iter().enumerate() {
             scenario.validate()?;
             scenario.check_uniform()?;
             let Scenario { forcing, initial, .. } = first_scenario.clone();
@@ -112,9 +106,9 @@ impl VerletAbreast {
             }
             let gaps = gap_amplitudes(scenario);
             let length = |cos: f64, sin: f64| (cos * cos + sin * sin).sqrt();
-            if gaps.iter().any(|&[free_cos, free_sin, forced_cos, forced_sin]| {
-                length(free_cos, free_sin) + length(forced_cos, forced_sin) >= 1.0
-            }) {
+            let reach =
+                |[a, b, forced_a, forced_b]: [f64; 4]| length(a, b) + length(forced_a, forced_b);
+            if gaps.iter().any(|gap| reach(*gap) >= 1.0) {
                 may_close.push((number, gaps));
             }
         }
@@ -127,8 +121,8 @@ impl VerletAbreast {
         for group in may_close.chunks(LANES) {
             let mut lanes = Lanes { until, counted, ..Lanes::new(first_scenario, h, group) };
             dispatch!(vector_level(), simd => lanes.run(simd, &steps, sink));
-            cost.impacts += lanes.impacts;
-            cost.steps += lanes.steps;
+            cost.impacts += lanes.cost.impacts;
+            cost.steps += lanes.cost.steps;
             for (lane, (number, _)) in group.iter().enumerate() {
                 let hit = lanes.gaps.iter().map(|gap| u32::from(gap.has_impact_bits >> lane & 1));
                 counts[*number] = hit.sum();
@@ -170,12 +164,6 @@ struct Gap {
     has_impact_bits: u16,
 }
 
-/// A gap beside another, and by how much its rate changes if that of the other changes by 1.
-struct AdjacentGap {
-    gap: usize,
-    share: f32,
-}
-
 /// Up to 16 chains side by side.
 #[derive(Default)]
 struct Lanes {
@@ -193,8 +181,8 @@ struct Lanes {
     low: f32,
     /// Number of the first gap in results.
     first: usize,
-    /// The gaps beside each; the last of `gaps` stands for none.
-    adjacent: Vec<[AdjacentGap; 2]>,
+    /// The gaps beside each, with the shares of its jump that they get; the last stands for none.
+    adjacent: Vec<[(usize, f32); 2]>,
     /// The gaps, and one more that never has an impact.
     gaps: Vec<Gap>,
     /// The number of the chain in each lane.
@@ -213,10 +201,8 @@ struct Lanes {
     stack: Vec<(usize, u32)>,
     /// Lanes and impacts of this step.
     step_impacts: Vec<(usize, Impact)>,
-    /// Number of impacts so far, in all lanes.
-    impacts: u64,
-    /// Number of steps so far, in all lanes.
-    steps: u64,
+    /// Impacts and steps so far, in all lanes.
+    cost: Cost,
 }
 
 impl Lanes {
@@ -242,7 +228,7 @@ impl Lanes {
         let adjacent = |k| {
             let [left, right] = share_change(1.0, topology.inverse_masses(k)).map(|x| x as f32);
             let [before, after] = topology.adjacent(k).map(|gap| gap.unwrap_or(none));
-            [AdjacentGap { gap: before, share: left }, AdjacentGap { gap: after, share: -right }]
+            [(before, left), (after, -right)]
         };
         Lanes {
             h,
@@ -273,7 +259,7 @@ impl Lanes {
 
     /// Runs the chains to the last whole step.
     #[inline(always)]
-    fn run<S: Simd>(&mut self, simd: S, steps: &Steps, sink: &mut ChainSink) {
+    fn run<S: Simd>(&mut self, simd: S, steps: &Steps, sink: ChainSink) {
         let (mut i, mut time, mut from) = (0, 0.0, (0.0, 1.0));
         let _ = steps.each(
             #[inline(always)]
@@ -283,7 +269,7 @@ impl Lanes {
                     return Err(());
                 }
                 self.is_counting = self.counted.is_some_and(|counted| time >= counted.from);
-                self.steps += u64::from(self.live.count_ones());
+                self.cost.steps += u64::from(self.live.count_ones());
                 let number = self.leap(simd, from);
                 let to = (step.phases[0].0 as f32, step.phases[0].1 as f32);
                 let mean = (0.5 * (from.0 + to.0), 0.5 * (from.1 + to.1));
@@ -316,8 +302,8 @@ impl Lanes {
         );
     }
 
-    /// Moves all gaps by a step that begins at (sin Ωt, cos Ωt); lists those that may have closed in it, and
-    /// returns their number.
+    /// Moves all gaps by a step that begins at (sin Ωt, cos Ωt); lists those that may have closed
+    /// in it, and returns their number.
     #[inline(always)]
     fn leap<S: Simd>(&mut self, simd: S, (sin, cos): (f32, f32)) -> usize {
         let mut number = 0;
@@ -361,8 +347,7 @@ impl Lanes {
                 continue;
             };
             let speed = acceleration * steps_left - rate;
-            let is_closing = speed > 0.0;
-            if !is_closing {
+            if speed <= 0.0 || speed.is_nan() {
                 continue;
             }
             // The free motion that the impact adds, as if it had been there a step before the end.
@@ -371,14 +356,14 @@ impl Lanes {
             let growth = change + jump * sine(self.turn - steps_left * self.turn);
             gap.has_impact_bits |= u16::from(self.is_counting) << lane;
             (gap.u[lane], gap.v[lane]) = (u + change, v + growth);
-            self.impacts += 1;
+            self.cost.impacts += 1;
             if self.counted.is_none() {
                 let time = time - f64::from(steps_left.min(1.0)) * self.h;
                 let closing_speed = f64::from(speed) * self.spacing / self.h;
                 let gap = self.first + k;
                 self.step_impacts.push((lane, Impact { time, gap, closing_speed }));
             }
-            for &AdjacentGap { gap: adjacent, share } in &self.adjacent[k] {
+            for (adjacent, share) in self.adjacent[k] {
                 let gap = &mut self.gaps[adjacent];
                 gap.u[lane] += share * change;
                 gap.v[lane] += share * growth;
@@ -390,11 +375,11 @@ impl Lanes {
     }
 
     /// Hands on the impacts of a step.
-    fn report(&mut self, sink: &mut ChainSink) {
+    fn report(&mut self, sink: ChainSink) {
         self.step_impacts.sort_by(|a, b| a.1.time.total_cmp(&b.1.time));
         for (lane, impact) in std::mem::take(&mut self.step_impacts) {
             if self.live >> lane & 1 == 0 || impact.time > self.until {
-                self.impacts -= 1;
+                self.cost.impacts -= 1;
             } else if !sink(self.chains[lane], impact) {
                 self.end(1 << lane);
             }

@@ -41,8 +41,8 @@ impl<const M: usize> Eighths<M> {
         let below = sign_bits(row.map(|x| less(x, splat(0.0))));
         let [[a, b], [c, d], [e, f], [g, h]] = row.map(Pair::to_array);
         let values = [frame.f0, a, b, c, d, e, f, g, h];
-        // Bit i is set where the end of the i-th eighth is below zero, so the lowest set bit is the
-        // number of the last positive value; the last bit, set always, stands for none below zero.
+        // Bit i is set if values[i + 1] is below zero, so at the lowest set bit values[i] is the
+        // last positive one; bit 7 is always set, so that there is one.
         let last_positive = (below | 1 << (N - 1)).trailing_zeros() as usize % N;
         let (high, low) = (values[last_positive], values[last_positive + 1]);
         self.width * (last_positive as f64 + high / (high - low))
@@ -79,7 +79,8 @@ pub struct Coefficients {
     slack: f64,
 }
 
-/// Returns C(i, k) k! (8 − k)!/8! wᵏ: the k-th Taylor coefficient in the i-th Bernstein coefficient.
+/// Returns C(i, k) k! (8 − k)!/8! wᵏ: the factor of the k-th Taylor coefficient in the i-th
+/// Bernstein coefficient.
 fn weight(i: usize, k: usize, w: f64) -> f64 {
     (0..k).fold(1.0, |product, m| product * ((i - m) as f64 * w / (N - m) as f64))
 }
@@ -136,8 +137,8 @@ impl<const M: usize> Piece<M> {
         Coefficients { row, slack: SLACK * frame.size }
     }
 
-    /// Guesses the root, from the frame's instant, or returns `None` if the coefficients do not show
-    /// that f falls throughout, from `first` to below zero.
+    /// Guesses the root, from the frame's instant, or returns `None` if the coefficients do not
+    /// show that f falls throughout, from `first` to below zero.
     #[inline(always)]
     pub fn only_root(&self, frame: &Frame<M>, first: f64, c: &Coefficients) -> Option<f64> {
         let [b1, b2, b3, b4, b5, b6, b7, b8] = c.to_array();
@@ -167,7 +168,7 @@ impl<const M: usize> Piece<M> {
 }
 
 /// Rounding of a coefficient, in units of the frame's size: at most a dozen roundings of terms that
-/// are each below a few sizes. Few of them add up: tests find b₁ and b₈ off by less than half of it.
+/// are each below a few sizes. Few of them add up: in tests b₁ and b₈ are off by less than half.
 const SLACK: f64 = 64.0 * f64::EPSILON;
 
 impl Coefficients {
