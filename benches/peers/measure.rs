@@ -4,7 +4,7 @@
 //! Chain i of n masses starts from rest; its forcing is drawn from stream i of the seed.
 
 use clap::Parser;
-use impact_chain::methods::{Certified, Method, Task, VerletAbreast, Window};
+use impact_chain::methods::{Certified, CountedSteps, HitGaps, Method, Task, VerletAbreast};
 use impact_chain::{Abreast, without_wide_vectors};
 use impact_chain::{Counters, Engine, Error, Protocol, Scenario, State};
 use impact_numerics::random::{NormalPairs, Seed};
@@ -268,9 +268,12 @@ fn once(case: &Case, method: &dyn Method, scenarios: &[Scenario]) -> Result<u64,
         }
     };
     if method.name() == MethodName::VerletAbreast.id() {
-        let (step, window) =
-            (case.setting.value, window.map(|_| Window { after: from, ends_with_one: *first }));
-        let ran = VerletAbreast { step }.run_all(scenarios, runs.until, window, &mut |_, _| true);
+        let verlet = VerletAbreast { step: case.setting.value };
+        if window.is_none() {
+            return Ok(verlet.run_all(scenarios, runs.until, &mut |_, _| true)?.impacts);
+        }
+        let until = if *first { HitGaps::One } else { HitGaps::All };
+        let ran = verlet.count_gaps(scenarios, runs.until, CountedSteps { from, until });
         return Ok(ran?.0.impacts);
     }
     let together = window.filter(|_| method.name() == Certified.name());

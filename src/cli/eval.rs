@@ -106,9 +106,10 @@ fn evaluate(name: &str, inputs: &Inputs) -> Result<Value, Error> {
     let law = || Law::new(space, n, inputs.p.unwrap_or_default());
     let relation = || {
         let Inputs { sigma, spacing, omega, forcing_frequency, .. } = *inputs;
-        let [sigma, spacing, omega, forcing_frequency] =
+        let [sigma, spacing, natural_frequency, forcing_frequency] =
             [sigma, spacing, omega, forcing_frequency].map(|x| x.unwrap_or(f64::NAN));
-        ImpactProbability::new(sigma, spacing, omega, forcing_frequency)
+        let chain = Chain { spacing, natural_frequency, forcing_frequency, ..Chain::default() };
+        ImpactProbability::new(sigma, &chain)
     };
     Ok(match name {
         "p-crit" => jump::p_crit(n)?.into(),

@@ -4,7 +4,7 @@ use crate::{SCENARIO, answer, program, run};
 use impact_circuits::distribution::{Law, SampleSpace};
 use impact_circuits::impact_probability::ImpactProbability;
 use impact_circuits::{counting, jump};
-use impact_paper::params::MethodName;
+use impact_paper::params::{Chain, MethodName};
 use serde_json::{Value, json};
 use std::io::Write;
 use std::path::Path;
@@ -34,7 +34,9 @@ fn integer(arguments: &str) -> u64 {
 fn every_quantity_prints_what_the_library_computes() {
     let (simple, five) = (SampleSpace::Simple, SampleSpace::FiveClasses);
     let law = |space| Law::new(space, 41, 0.07).unwrap();
-    let relation = ImpactProbability::new(0.2, 1.5, 1.1, 0.6).unwrap();
+    let [spacing, natural_frequency, forcing_frequency] = [1.5, 1.1, 0.6];
+    let chain = Chain { spacing, natural_frequency, forcing_frequency, ..Chain::default() };
+    let relation = ImpactProbability::new(0.2, &chain).unwrap();
     assert_eq!(float("p-crit --vertices 41"), jump::p_crit(41).unwrap());
     assert_eq!(float("p-jump --vertices 41"), jump::p_jump(simple, 41).unwrap().p);
     assert_eq!(float("higher-p-jump --vertices 41"), jump::p_jump(five, 41).unwrap().p);

@@ -1,8 +1,8 @@
 //! Counts simple circuits (Sec. 5): exactly up to 128 bits, beyond by Eq. (10) at p = 1.
 
 use crate::distribution::{Law, SampleSpace};
-use crate::error::Error;
 use crate::higher_order::arrangements;
+use impact_chain::Error;
 use impact_numerics::scaled::Scaled;
 
 /// **Eq. (6)**

@@ -4,9 +4,9 @@
 //! digits as N grows. Here every weight is a running product of the factors p (N − k), carried
 //! with 106 bits and a separate exponent, so N = 10^6 costs neither digits nor range.
 
-use crate::error::{Error, check_range};
 use crate::higher_order;
 pub use crate::higher_order::SampleSpace;
+use impact_chain::{Error, check_range};
 use impact_numerics::double_double::DoubleDouble;
 use impact_numerics::scaled::Scaled;
 
@@ -60,7 +60,7 @@ impl Weights {
         }
     }
 
-    /// Whether the ratio of neighbours, ≤ p (N − k) (k + 3)/(k − 1), stays below 1 from here.
+    /// Returns whether the ratio of neighbours, ≤ p (N − k) (k + 3)/(k − 1), stays below 1.
     pub(crate) fn falls_from_here(&self) -> bool {
         let k = self.k as f64;
         let ratio = self.p.hi * (self.big_n - self.k) as f64;

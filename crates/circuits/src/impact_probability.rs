@@ -15,41 +15,47 @@
 //! chain that is at rest when the forcing sets in has no such random part: its free part cancels
 //! the forced position and velocity at t = 0, so with δα, δβ the differences of forcing amplitudes
 //! Y_0 = √(δα² + (Ω/ω)² δβ²)/|ω² − Ω²|, which goes with Y_1. In polar form the radius integrates
-//! out and one angle is left (ours):
+//! out and one angle is left (not in the paper):
 //!
 //! p_rest = (2/π) ∫_0^{π/2} exp(−(|ω² − Ω²| d/(2σ))²/(1 + √(cos²θ + (Ω/ω)² sin²θ))²) dθ.
 
-use crate::error::{Error, check_range, refused};
-use impact_chain::Chain;
+use impact_chain::{Chain, Error, check_range};
 use impact_numerics::double_double::DoubleDouble;
 use impact_numerics::quadrature::GaussLegendre;
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2};
 
-/// Beyond this v, 1 − e^{−v²} is 1 to the last bit.
+/// The v above which 1 − e^{−v²} is 1 as a double.
 const SATURATED: f64 = 6.25;
 
 /// Order of the quadratures: many more points than the smooth integrands need.
 const POINTS: usize = 48;
 
-/// The probability that a gap closes by itself, for one σ, spacing d, ω and Ω.
+/// Where the exponent E of p is below this, p is 1 − (1 − p): the rounding of 1 − p is then below
+/// the last bit of p.
+const SMALL_EXPONENT: f64 = 0.01;
+
+/// Beyond this exponent s is above 1e135, where squares of double-doubles lose digits.
+const LARGEST_EXPONENT: f64 = 1e270;
+
+/// The law by which a gap closes by itself, for one σ, spacing d, ω and Ω.
 #[derive(Clone, Copy, Debug)]
 pub struct ImpactProbability {
     sigma: f64,
     spacing: f64,
     /// d/(2σ).
-    half_ratio: DoubleDouble,
+    spacing_over_two_sigma: DoubleDouble,
     /// |ω² − Ω²|.
     detuning: DoubleDouble,
     /// (Ω/ω)².
-    frequency_ratio: DoubleDouble,
+    squared_frequency_ratio: DoubleDouble,
 }
 
-/// **Eq. (21)** (step towards (22)): Y = √((α_{j+1} − α_j)² + (β_{j+1} − β_j)²), the amplitude of
-/// one harmonic of a gap.
-///
 /// **Eq. (22)**
 ///
 /// Returns the density of Y_0 at x ≥ 0: Rayleigh, as both differences are normal, of variance 2σ².
+///
+/// **Eq. (21)** (step towards (22)): Y = √((α_{j+1} − α_j)² + (β_{j+1} − β_j)²), the amplitude of
+/// one harmonic of a gap.
 pub fn density_free(x: f64, sigma: f64) -> f64 {
     density_forced(x, sigma, 1.0)
 }
@@ -70,8 +76,9 @@ fn square(x: DoubleDouble) -> DoubleDouble {
     x * x
 }
 
-/// Squares a frequency; the double nearest to √2 stands for √2: in the tail p changes by 1e−13.
-fn squared(frequency: f64) -> DoubleDouble {
+/// Squares a frequency. The double nearest to √2 stands for √2: taking the double itself would
+/// change p by 1e−13 in the tail.
+fn square_of_frequency(frequency: f64) -> DoubleDouble {
     if frequency == SQRT_2 { dd(2.0) } else { square(dd(frequency)) }
 }
 
@@ -83,52 +90,56 @@ fn saturation(x: f64) -> f64 {
 /// Creates the error of a positive quantity that is below the range of doubles at a σ.
 fn underflow(what: &str, sigma: f64, remedy: &str) -> Error {
     let problem = format!("{what} is below the range of double precision at σ = {sigma:e}");
-    refused("sigma", problem, remedy.into())
+    Error::input("sigma", problem, remedy)
 }
 
-/// An exponent below which 1 − p is more accurate than p: its rounding falls below p's last bit.
-const NEARLY_ONE: f64 = 0.01;
+/// p = `factor` · e^{−`exponent`}.
+struct LeadingTerm {
+    exponent: DoubleDouble,
+    factor: f64,
+}
 
 impl ImpactProbability {
-    /// Creates the law of masses d = `spacing` apart, with frequencies ω and `forcing` = Ω ≠ ω.
-    pub fn new(sigma: f64, spacing: f64, omega: f64, forcing: f64) -> Result<Self, Error> {
+    /// Creates the law of the spacing d and the frequencies ω and Ω ≠ ω of a chain.
+    pub fn new(sigma: f64, chain: &Chain) -> Result<Self, Error> {
+        let &Chain { spacing, natural_frequency: omega, forcing_frequency: forcing, .. } = chain;
         check_range("sigma", sigma, 1e-300, 1e6)?;
         // The ranges of a scenario.
         check_range("spacing", spacing, 1e-6, 1e6)?;
         check_range("omega", omega, 1e-3, 1e3)?;
         check_range("forcing-frequency", forcing, 1e-3, 1e3)?;
         // Both squares are exact to 106 bits.
-        let difference = squared(omega) - squared(forcing);
+        let difference = square_of_frequency(omega) - square_of_frequency(forcing);
         let detuning = if difference.hi < 0.0 { -difference } else { difference };
         if detuning.hi == 0.0 {
             let problem = format!("Ω = ω = {omega:?} is resonance, where amplitudes grow for ever");
-            return Err(refused("forcing-frequency", problem, "give Ω different from ω".into()));
+            return Err(Error::input("forcing-frequency", problem, "give Ω different from ω"));
         }
         Ok(ImpactProbability {
             sigma,
             spacing,
-            half_ratio: dd(spacing) / dd(sigma) * 0.5,
+            spacing_over_two_sigma: dd(spacing) / dd(sigma) * 0.5,
             detuning,
-            frequency_ratio: squared(forcing) / squared(omega),
+            squared_frequency_ratio: square_of_frequency(forcing) / square_of_frequency(omega),
         })
     }
 
     /// Creates the law of the paper's chain, ω = 1, Ω = √2, d = 1 (Fig. 11).
     pub fn of_paper(sigma: f64) -> Result<Self, Error> {
-        let chain = Chain::default();
-        Self::new(sigma, chain.spacing, chain.natural_frequency, chain.forcing_frequency)
+        Self::new(sigma, &Chain::default())
     }
 
     /// Returns s ≤ t: d over twice the wider and the narrower Rayleigh scale.
-    fn scales(&self) -> (DoubleDouble, DoubleDouble) {
-        let (free, forced) = (self.half_ratio, self.half_ratio * self.detuning);
+    fn reduced_spacings(&self) -> (DoubleDouble, DoubleDouble) {
+        let free = self.spacing_over_two_sigma;
+        let forced = free * self.detuning;
         if free <= forced { (free, forced) } else { (forced, free) }
     }
 
     // listing: leading
-    /// Returns the leading exponent E and the factor B of p = B e^{−E}; both without cancellation.
-    fn leading(&self) -> (DoubleDouble, f64) {
-        let (s, t) = self.scales();
+    /// Returns the exponent E and the factor B of p = B e^{−E}, both without cancellation.
+    fn leading(&self) -> LeadingTerm {
+        let (s, t) = self.reduced_spacings();
         let ratio = s / t;
         let sum = DoubleDouble::ONE + square(ratio);
         let decay = |exponent: DoubleDouble| (-exponent).exp();
@@ -137,8 +148,9 @@ impl ImpactProbability {
         let forced = decay(square(t) / sum);
         let root = one_r.sqrt();
         let mixed = pxfm::f_erf(t.to_f64() / root) + pxfm::f_erf((s * ratio).to_f64() / root);
-        let factor = PI.sqrt() * (s * ratio).to_f64() / (one_r * root);
-        (square(s) / sum, (free + r * r * forced) / one_r + factor * mixed)
+        let weight = PI.sqrt() * (s * ratio).to_f64() / (one_r * root);
+        let factor = (free + r * r * forced) / one_r + weight * mixed;
+        LeadingTerm { exponent: square(s) / sum, factor }
     }
     // end
 
@@ -147,8 +159,8 @@ impl ImpactProbability {
     /// Returns p(σ), the probability that a gap closes by itself, in closed form and to about 1e−15
     /// relative at the exact doubles given.
     pub fn p(&self) -> Result<f64, Error> {
-        let (exponent, factor) = self.leading();
-        if exponent.to_f64() < NEARLY_ONE {
+        let LeadingTerm { exponent, factor } = self.leading();
+        if exponent.to_f64() < SMALL_EXPONENT {
             return Ok(1.0 - self.complement());
         }
         // Half the exponent twice: the exponential must not underflow before its factor acts.
@@ -162,13 +174,14 @@ impl ImpactProbability {
 
     /// Returns ln p(σ), to about 1e−15 relative for every σ.
     pub fn log_p(&self) -> Result<f64, Error> {
-        let (exponent, factor) = self.leading();
-        if exponent.hi.is_nan() || exponent.hi > 1e270 {
+        let LeadingTerm { exponent, factor } = self.leading();
+        if exponent.hi.is_nan() || exponent.hi > LARGEST_EXPONENT {
             return Err(underflow("ln p(σ)", self.sigma, "give a larger sigma"));
         }
-        let rest = if exponent.hi < 1.0 { self.complement() } else { 1.0 };
-        if rest < 0.5 {
-            return Ok(pxfm::f_log1p(-rest));
+        // Above p = 1/2, and not only near 1 as p, by 1 − p: there ln B and E cancel.
+        let complement = if exponent.hi < 1.0 { self.complement() } else { 1.0 };
+        if complement < 0.5 {
+            return Ok(pxfm::f_log1p(-complement));
         }
         Ok((dd(pxfm::f_log(factor)) - exponent).to_f64())
     }
@@ -179,7 +192,7 @@ impl ImpactProbability {
     /// accurate even when it is tiny (large σ): an integral over the wider amplitude of positive
     /// terms.
     pub fn complement(&self) -> f64 {
-        let (s, t) = self.scales();
+        let (s, t) = self.reduced_spacings();
         let (s2, t_value) = (square(s).to_f64(), t.to_f64());
         let rule = GaussLegendre::new(POINTS);
         let wide = |u: f64| 2.0 * u * pxfm::f_exp(-s2 * u * u);
@@ -219,9 +232,10 @@ impl ImpactProbability {
     /// Returns p from rest. The trapezoidal rule converges fast as the integrand is periodic; the
     /// largest value of the exponential is taken out first, so small values keep their digits.
     pub fn p_from_rest(&self) -> Result<f64, Error> {
-        let scale = square(self.half_ratio * self.detuning);
-        let kappa = self.frequency_ratio.to_f64();
-        let root = if kappa > 1.0 { self.frequency_ratio.sqrt() } else { DoubleDouble::ONE };
+        let scale = square(self.spacing_over_two_sigma * self.detuning);
+        let kappa = self.squared_frequency_ratio.to_f64();
+        let root =
+            if kappa > 1.0 { self.squared_frequency_ratio.sqrt() } else { DoubleDouble::ONE };
         let reach = DoubleDouble::ONE + root;
         let (rate, reach_f64) = (scale.to_f64(), reach.to_f64());
         let least = scale / square(reach);
@@ -276,7 +290,8 @@ mod tests {
         assert!((density_free(2.0, 2.0) - 0.25 * (-0.25_f64).exp()).abs() < 1e-15);
         assert!((density_forced(1.0, 1.0, 2.0) - 2.0 * (-1.0_f64).exp()).abs() < 1e-15);
         for [sigma, spacing, forcing] in [[0.3, 1.0, SQRT_2], [0.7, 2.0, 1.6]] {
-            let law = ImpactProbability::new(sigma, spacing, 1.0, forcing).unwrap();
+            let chain = Chain { spacing, forcing_frequency: forcing, ..Chain::default() };
+            let law = ImpactProbability::new(sigma, &chain).unwrap();
             let off = law.p_by_double_integral(3) - law.p().unwrap();
             assert!(off.abs() < 1e-12, "{off}");
         }

@@ -1,7 +1,7 @@
 //! Computes k*, the most likely number of impacts, and its jump (Sec. 7).
 
 use crate::distribution::{Law, SampleSpace, Weights, check_vertices};
-use crate::error::{Error, refused};
+use impact_chain::Error;
 use impact_numerics::double_double::{DoubleDouble, two_product};
 use impact_numerics::roots;
 use impact_numerics::scaled::Scaled;
@@ -135,7 +135,7 @@ pub fn p_jump(space: SampleSpace, big_n: usize) -> Result<Jump, Error> {
         let problem = format!(
             "with N = {big_n} the most likely number of impacts is 1 for every p, so there is no jump"
         );
-        return Err(refused("vertices", problem, format!("give N ≥ {least}")));
+        return Err(Error::input("vertices", problem, format!("give N ≥ {least}")));
     }
     let exceeded = |p: f64| first_is_exceeded(space, big_n, DoubleDouble::from(p));
     let [below, above] = roots::bracket(0.0, 1.0, exceeded);
@@ -146,7 +146,7 @@ pub fn p_jump(space: SampleSpace, big_n: usize) -> Result<Jump, Error> {
 // end
 
 // listing: first_is_exceeded
-/// Decides whether some k > 1 has more weight than k = 1.
+/// Returns whether some k > 1 has more weight than k = 1.
 fn first_is_exceeded(space: SampleSpace, big_n: usize, p: DoubleDouble) -> bool {
     let mut weights = Weights::new(space, big_n, p);
     let first = weights.moment();

@@ -1,5 +1,7 @@
 //! Computes the probabilities that a gap, or some gap, of a chain from rest closes by itself.
 //!
+//! A gap that closes by itself, before any impact beside it, is a seed; impacts nucleate there.
+//!
 //! # One gap
 //! A chain from rest has free parts that cancel the forced positions and velocities at t = 0. With
 //! the differences δα = ρ cos θ, δβ = ρ sin θ of the amplitudes on both sides of a gap, its
@@ -20,10 +22,10 @@
 //! needs form an ellipse of size √ε, for ρ M = d + ε, which a straight line of length T in the
 //! torus of phases misses for ε of order T^{−2} only.
 //!
-//! # Two neighbours
-//! Neighbours share a mass, and with it the force on that mass: both amplitude differences contain
-//! it with opposite signs, so their covariance is −σ². In polar coordinates for the radii of
-//! the two, r_1 = s cos φ and r_2 = s sin φ, the integral over s is elementary, and three angles
+//! # Two adjacent gaps
+//! Adjacent gaps share a mass, and with it the force on that mass: both amplitude differences
+//! contain it with opposite signs, so their covariance is −σ². In polar coordinates for the radii
+//! of the two, r_1 = s cos φ and r_2 = s sin φ, the integral over s is elementary, and three angles
 //! are left. Where tan φ < m_2/m_1, m_i = d/M(θ_i), the second radius decides whether both close,
 //! and with t = tan φ
 //!
@@ -33,11 +35,11 @@
 //! v_1 and v_2 being the variances of the differences. The exponential is the only function needed.
 //!
 //! # At least one gap of a chain
-//! The gaps are 1-dependent: gaps that share no mass are independent, neighbours are not, and those
-//! that close by themselves come in clumps. A clump begins at a gap that closes when the gap to its
-//! left does not. There is a gap that closes if and only if there is a clump, and beginnings of
-//! clumps are nearly independent: if their mean number is λ, there is no clump with a probability
-//! near e^{−λ}.
+//! The gaps are 1-dependent: gaps that share no mass are independent, adjacent gaps are not, and
+//! those that close by themselves come in clumps. A clump begins at a gap that closes when the gap
+//! to its left does not. There is a gap that closes if and only if there is a clump, and beginnings
+//! of clumps are nearly independent: if their mean number is λ, there is no clump with a
+//! probability near e^{−λ}.
 //!
 //! Dependence only makes chains without such a gap more frequent: in unlimited time a gap stays
 //! open in a set of forces that is convex and symmetric about zero, so that by the Gaussian
@@ -51,26 +53,33 @@ use std::f64::consts::TAU;
 /// M_T(θ) at equally spaced angles θ from 0, in units of length per unit of amplitude of the force.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reach {
+    /// M_T at each angle.
     pub radii: Vec<f64>,
 }
 
+/// Angles that are enough for one gap.
 pub const ANGLES: usize = 256;
 
-/// Angles of the rule for neighbours, whose cost grows as their square.
-pub const COARSE: usize = 64;
+/// Angles of the rule for two adjacent gaps, whose cost grows as their square.
+pub const PAIR_ANGLES: usize = 64;
 
 /// Steps of the search for maxima in a unit of ωt.
 const STEPS: usize = 8;
 
-/// Returns the curve E and its first derivative at a time.
-fn curve(chain: &Chain, time: f64) -> ([f64; 2], [f64; 2]) {
+/// The curve E at a time, and its derivative.
+struct CurvePoint {
+    value: [f64; 2],
+    slope: [f64; 2],
+}
+
+fn curve(chain: &Chain, time: f64) -> CurvePoint {
     let (omega, big_omega) = (chain.natural_frequency, chain.forcing_frequency);
     let scale = 1.0 / (omega * omega - big_omega * big_omega);
     let (sin, cos) = pxfm::f_sincos(omega * time);
     let (forced_sin, forced_cos) = pxfm::f_sincos(big_omega * time);
-    let point = [cos - forced_cos, big_omega / omega * sin - forced_sin];
+    let value = [cos - forced_cos, big_omega / omega * sin - forced_sin];
     let slope = [big_omega * forced_sin - omega * sin, big_omega * (cos - forced_cos)];
-    (point.map(|x| scale * x), slope.map(|x| scale * x))
+    CurvePoint { value: value.map(|x| scale * x), slope: slope.map(|x| scale * x) }
 }
 
 fn dot([x, y]: [f64; 2], [cos, sin]: [f64; 2]) -> f64 {
@@ -78,8 +87,8 @@ fn dot([x, y]: [f64; 2], [cos, sin]: [f64; 2]) -> f64 {
 }
 
 impl Reach {
-    /// Computes the reach within each of some rising times, rounded down to eighths of 1/ω. Maxima
-    /// are exact to rounding, except two of them less than an eighth apart.
+    /// Computes the reach up to each of `times`, which must rise and are rounded down to eighths of
+    /// 1/ω. Maxima are exact to rounding, except two of them less than an eighth apart.
     pub fn within_times(chain: &Chain, times: &[f64], angles: usize) -> Vec<Reach> {
         let step = 1.0 / (STEPS as f64 * chain.natural_frequency);
         let directions: Vec<[f64; 2]> = directions(angles).collect();
@@ -91,13 +100,13 @@ impl Reach {
                 let (from, until) = (i as f64 * step, (i + 1) as f64 * step);
                 let after = curve(chain, until);
                 for (radius, direction) in radii.iter_mut().zip(&directions) {
-                    let [rises, falls] = [before.1, after.1].map(|slope| dot(slope, *direction));
-                    *radius = radius.max(dot(after.0, *direction));
+                    let [rises, falls] = [&before, &after].map(|at| dot(at.slope, *direction));
+                    *radius = radius.max(dot(after.value, *direction));
                     // Between a rise and a fall the values stay below both tangents.
-                    let most = dot(before.0, *direction) + rises * step;
-                    if rises > 0.0 && falls < 0.0 && most > *radius {
+                    let upper_bound = dot(before.value, *direction) + rises * step;
+                    if rises > 0.0 && falls < 0.0 && upper_bound > *radius {
                         let time = turning_time(chain, *direction, from, until);
-                        *radius = radius.max(dot(curve(chain, time).0, *direction));
+                        *radius = radius.max(dot(curve(chain, time).value, *direction));
                     }
                 }
                 (before, i) = (after, i + 1);
@@ -128,11 +137,11 @@ impl Reach {
     }
 }
 
-/// Lists |ω² − Ω²| (R₁ + R₂) of each gap between bodies that start at rest under these forces; the
-/// force of a wall is zero.
-pub fn pulls(chain: &Chain, bodies: &[[f64; 2]]) -> impl Iterator<Item = f64> {
+/// Lists |ω² − Ω²| (R₁ + R₂) of each gap between bodies that start at rest under these `forces`, R₁
+/// and R₂ the amplitudes of its free and forced parts; the force of a wall is zero.
+pub fn pulls(chain: &Chain, forces: &[[f64; 2]]) -> impl Iterator<Item = f64> {
     let ratio = chain.forcing_frequency / chain.natural_frequency;
-    bodies.windows(2).map(move |pair| {
+    forces.windows(2).map(move |pair| {
         let [alpha, beta] = [pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]];
         let turned = ratio * beta;
         (alpha * alpha + turned * turned).sqrt() + (alpha * alpha + beta * beta).sqrt()
@@ -155,7 +164,7 @@ fn directions(angles: usize) -> impl Iterator<Item = [f64; 2]> {
 /// Returns when the curve turns back in a direction, between a rise and a fall.
 fn turning_time(chain: &Chain, direction: [f64; 2], mut from: f64, mut until: f64) -> f64 {
     // The slope is nearly straight: false position, and a bisection now and then moves both ends.
-    let slope = |time: f64| dot(curve(chain, time).1, direction);
+    let slope = |time: f64| dot(curve(chain, time).slope, direction);
     let (mut rises, mut falls) = (slope(from), slope(until));
     for round in 0..24 {
         let share = if round % 3 == 2 { 0.5 } else { rises / (rises - falls) };
@@ -169,19 +178,20 @@ fn turning_time(chain: &Chain, direction: [f64; 2], mut from: f64, mut until: f6
     0.5 * (from + until)
 }
 
-/// Points of the rule on each side of the angle from which on the other radius decides.
+/// Nodes of the rule in t, for each of the two cases of which gap decides.
 const POINTS: usize = 20;
 
-/// Returns the probability that two neighbours of variances v_1, v_2 both close by themselves.
+/// Returns the probability that two adjacent gaps of variances v_1, v_2 both close by themselves.
 fn pair_probability(reach: &Reach, spacing: f64, sigma: f64, [v_1, v_2]: [f64; 2]) -> f64 {
     let rule = GaussLegendre::new(POINTS);
     let shared = sigma * sigma;
     let determinant = v_1 * v_2 - shared * shared;
-    let radii: Vec<f64> = reach.radii.iter().copied().step_by(reach.radii.len() / COARSE).collect();
+    let step = (reach.radii.len() / PAIR_ANGLES).max(1);
+    let radii: Vec<f64> = reach.radii.iter().copied().step_by(step).collect();
     let angles = radii.len();
     let cosines: Vec<f64> = directions(angles).map(|[cos, _]| cos).collect();
     // The part where the gap of the least radius `m` and the variance `v` decides.
-    let decides = |(m, v): (f64, f64), (other_m, other_v): (f64, f64), twice_shared: f64| {
+    let decided_by = |(m, v): (f64, f64), (other_m, other_v): (f64, f64), twice_shared: f64| {
         rule.integrate(0.0, m / other_m, |t| {
             let q = v + t * (twice_shared + other_v * t);
             let half = 0.5 * m * m * q / (determinant * t * t);
@@ -198,22 +208,24 @@ fn pair_probability(reach: &Reach, spacing: f64, sigma: f64, [v_1, v_2]: [f64; 2
             }
             let (one, two) = ((spacing / first, v_1), (spacing / second, v_2));
             let twice_shared = 2.0 * shared * cosines[(angles + i - j) % angles];
-            let both = decides(two, one, twice_shared) + decides(one, two, twice_shared);
+            let both = decided_by(two, one, twice_shared) + decided_by(one, two, twice_shared);
             sum += if v_1 == v_2 && j < i { 2.0 * both } else { both };
         }
     }
     2.0 * determinant * sum / (angles * angles) as f64
 }
 
-/// The probabilities that single gaps and neighbours of a chain from rest close by themselves.
+/// The probabilities that single gaps and adjacent ones of a chain from rest close by themselves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Deserialize, serde::Serialize))]
 pub struct Chances {
+    /// A gap between masses.
     pub p: f64,
+    /// A gap at a wall.
     pub wall: f64,
-    /// Both of two neighbouring gaps between masses.
+    /// Both of two adjacent gaps between masses.
     pub pair: f64,
-    /// A gap at a wall and its neighbour.
+    /// Both a gap at a wall and the adjacent one.
     pub wall_pair: f64,
 }
 
@@ -252,7 +264,7 @@ impl Chances {
 }
 
 /// Returns the σ at which half of such chains have a gap that closes by itself, to about 1e-6.
-pub fn sigma_of_half(chain: &Chain, reach: &Reach) -> f64 {
+pub fn sigma_at_which_half_close(chain: &Chain, reach: &Reach) -> f64 {
     let chances = |sigma: f64| Chances::new(chain, reach, sigma);
     let share = |sigma: f64| chances(sigma).at_least_one(chain.masses, chain.boundary);
     let logarithms = [0.02, 2.0].map(|times: f64| pxfm::f_log(times * chain.spacing));
@@ -283,7 +295,8 @@ mod tests {
         let times = [5.0, 40.0, 300.0];
         let reaches = Reach::within_times(&chain, &times, 90);
         let ever = Reach::in_unlimited_time(&chain, 90);
-        let samples: Vec<_> = (0..=300_000).map(|i| curve(&chain, f64::from(i) * 1e-3).0).collect();
+        let samples: Vec<_> =
+            (0..=300_000).map(|i| curve(&chain, f64::from(i) * 1e-3).value).collect();
         for (time, reach) in times.iter().zip(&reaches) {
             for (angle, direction) in directions(90).enumerate() {
                 let sampled = samples[..=(time * 1e3) as usize].iter();
@@ -321,16 +334,16 @@ mod tests {
         let chain = Chain { forcing_frequency: 2.0, spacing: 1.5, ..Chain::default() };
         let pulls: Vec<f64> = pulls(&chain, &[[0.0; 2], [3.0, 4.0], [2.0, 4.0]]).collect();
         assert_eq!((pulls, closing_pull(&chain)), (vec![73.0_f64.sqrt() + 5.0, 2.0], 4.5));
-        let reach = Reach::in_unlimited_time(&chain, COARSE);
-        let share = Chances::new(&chain, &reach, sigma_of_half(&chain, &reach))
+        let reach = Reach::in_unlimited_time(&chain, PAIR_ANGLES);
+        let share = Chances::new(&chain, &reach, sigma_at_which_half_close(&chain, &reach))
             .at_least_one(chain.masses, chain.boundary);
         assert!((share - 0.5).abs() < 1e-4, "{share}");
     }
 
-    /// Neighbours that both close, counted in 200 000 draws of forces, within four deviations; the
+    /// Adjacent gaps that both close, in 200 000 draws of forces, within four deviations; the
     /// reach differs between opposite angles, so that the sign of what the two share counts.
     #[test]
-    fn two_neighbours_close_as_often_as_in_draws_of_their_forces() {
+    fn adjacent_gaps_close_as_often_as_in_draws_of_their_forces() {
         let (chain, sigma, draws) = (Chain::default(), 0.6, 200_000);
         let radii = directions(ANGLES).map(|[cos, _]| 1.0 + 0.5 * cos).collect();
         let chances = Chances::new(&chain, &Reach { radii }, sigma);

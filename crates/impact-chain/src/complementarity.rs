@@ -61,7 +61,7 @@ impl<const M: usize> Shut<'_, M> {
         }
     }
 
-    /// Decides whether an open gap is driven shut: by an acceleration that is negative beyond
+    /// Returns whether an open gap is driven shut: by an acceleration that is negative beyond
     /// rounding, as those of gaps released together by a symmetry are zero up to rounding.
     fn is_driven(&self, i: usize, neighbours: [Force<M>; 2]) -> bool {
         let size = neighbours.iter().fold(self.g[i].size(), |size, force| size + force.size());

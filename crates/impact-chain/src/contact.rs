@@ -46,7 +46,7 @@ struct Changed {
 const STILL: Changed = Changed { width: 0.0, rate: 0.0, is_settled: true };
 
 impl<const M: usize> Simulation<M> {
-    /// Decides whether the impact of gap k is so slow that contact may begin, or hits a cluster.
+    /// Returns whether the impact of gap k is so slow that contact may begin, or hits a cluster.
     #[inline(always)]
     pub(super) fn involves_contact(&self, k: usize, speed: f64) -> bool {
         let [before, after] = self.topology.adjacent(k);

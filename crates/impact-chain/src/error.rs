@@ -87,7 +87,8 @@ impl Error {
         }
     }
 
-    pub(crate) fn input(
+    /// Creates the error of a value that is refused.
+    pub fn input(
         field: impl Into<String>,
         problem: impl Into<String>,
         remedy: impl Into<String>,
@@ -97,12 +98,7 @@ impl Error {
 }
 
 /// Refuses a value of a field that is not from `low` to `high`.
-pub(crate) fn check_range<T: PartialOrd + Debug>(
-    field: &str,
-    x: T,
-    low: T,
-    high: T,
-) -> Result<(), Error> {
+pub fn check_range<T: PartialOrd + Debug>(field: &str, x: T, low: T, high: T) -> Result<(), Error> {
     if low <= x && x <= high {
         return Ok(());
     }

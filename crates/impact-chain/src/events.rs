@@ -352,7 +352,7 @@ impl<const M: usize> Simulation<M> {
         if self.involves_contact(k, speed) {
             return self.collide_in_contact(k, speed, phases);
         }
-        if self.is_conservative(k, speed) {
+        if self.is_reflected(k, speed) {
             return self.reflect(k, speed, phases);
         }
         let jumps = self.kick_neighbours(k, speed, phases);

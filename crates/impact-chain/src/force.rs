@@ -33,7 +33,7 @@ impl<const M: usize> Force<M> {
         self.forced.iter().fold(self.constant.abs(), |sum, [c, s]| sum + c.abs() + s.abs())
     }
 
-    /// Whether an acceleration is or falls below zero: its first derivative above rounding.
+    /// Returns whether an acceleration is or falls below zero: its first derivative above rounding.
     pub fn falls(&self, size: f64, p: &Phases<M>, frequencies: &Frequencies<M>) -> bool {
         let parts = p.evaluate(&self.forced);
         let (mut powers, mut rounding) = ([1.0; M], ROUNDING * size);

@@ -45,3 +45,12 @@ pub fn jumps(speed: f64, restitution: f64, inverse_masses: [f64; 2]) -> [f64; 2]
     [-(share * left), share * right]
 }
 // end
+
+/// Returns the jumps of velocity (left, right) that make the rate of a gap grow by `change`.
+#[cfg(feature = "methods")]
+#[inline(always)]
+pub fn share_change(change: f64, inverse_masses: [f64; 2]) -> [f64; 2] {
+    let [left, right] = inverse_masses;
+    let share = change / (left + right);
+    [-(share * left), share * right]
+}

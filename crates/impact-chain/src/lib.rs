@@ -70,8 +70,7 @@ pub use chain::{Boundary, Chain, Start};
 #[cfg(feature = "ensembles")]
 pub use counts::{Counts, Protocol, Watch};
 pub use engine::Engine;
-use error::check_range;
-pub use error::{Error, ErrorKind};
+pub use error::{Error, ErrorKind, check_range};
 pub use event::{End, Event};
 pub use impact::Impact;
 #[cfg(feature = "methods")]

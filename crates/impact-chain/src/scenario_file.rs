@@ -197,7 +197,8 @@ fn parse(text: &str) -> Result<ScenarioFile, Error> {
     Ok(file)
 }
 
-/// Whether JSON could not be read because of NaN or an infinity, for which it has no number.
+/// Returns whether JSON could not be read because of NaN or an infinity, for which it has no
+/// number.
 fn is_not_finite(text: &str, error: &serde_json::Error) -> bool {
     let line = text.lines().nth(error.line().saturating_sub(1)).unwrap_or_default();
     let rest = line.get(error.column().saturating_sub(1)..).unwrap_or_default();

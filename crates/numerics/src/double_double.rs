@@ -50,6 +50,7 @@ impl DoubleDouble {
     pub const LN_2: Self =
         DoubleDouble { hi: std::f64::consts::LN_2, lo: 2.319_046_813_846_299_6e-17 };
 
+    /// Returns the product with `factor`, which must be a power of two, exactly.
     pub fn times_power_of_two(self, factor: f64) -> Self {
         DoubleDouble { hi: self.hi * factor, lo: self.lo * factor }
     }
@@ -65,7 +66,7 @@ impl DoubleDouble {
         if e == 0.0 || e.is_infinite() { e } else { e + e * pxfm::f_expm1(self.lo) }
     }
 
-    /// Returns the square root, for values ≥ 0.
+    /// Returns the square root, and 0 below zero.
     pub fn sqrt(self) -> Self {
         if self.hi <= 0.0 {
             return DoubleDouble::ZERO;
@@ -157,14 +158,14 @@ const NEGLIGIBLE: f64 = 1e-33;
 
 /// Computes sin x and cos x by their Taylor series; the absolute error grows as 1e−32 |x|.
 pub fn sin_cos(x: DoubleDouble) -> [DoubleDouble; 2] {
-    let turns = (x / HALF_PI).hi.round();
-    let r = x - HALF_PI * turns;
-    let square = -(r * r);
+    let quarter_turns = (x / HALF_PI).hi.round();
+    let r = x - HALF_PI * quarter_turns;
+    let minus_square = -(r * r);
     // Σ term_i with term_{i+1} = term_i · (−r²)/((k + 1)(k + 2)), k growing by two.
     let series = |first: DoubleDouble, mut k: f64| {
         let (mut term, mut sum) = (first, first);
         while term.hi.abs() > NEGLIGIBLE * sum.hi.abs() {
-            term = term * (square / DoubleDouble::from((k + 1.0) * (k + 2.0)));
+            term = term * (minus_square / DoubleDouble::from((k + 1.0) * (k + 2.0)));
             sum = sum + term;
             k += 2.0;
         }
@@ -172,7 +173,7 @@ pub fn sin_cos(x: DoubleDouble) -> [DoubleDouble; 2] {
     };
     let sin = if r.hi == 0.0 { r } else { series(r, 1.0) };
     let cos = series(DoubleDouble::ONE, 0.0);
-    match turns.rem_euclid(4.0) as u8 {
+    match quarter_turns.rem_euclid(4.0) as u8 {
         0 => [sin, cos],
         1 => [cos, -sin],
         2 => [-sin, -cos],

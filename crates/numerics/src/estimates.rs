@@ -54,7 +54,8 @@ mod tests {
     use super::*;
     use crate::random::{NormalPairs, Seed};
 
-    /// Whether an estimate has this value and error, and their normal interval, to nine digits.
+    /// Returns whether an estimate has this value and error, and their normal interval, to nine
+    /// digits.
     fn near(estimate: Estimate, [value, error]: [f64; 2]) -> bool {
         let half = 1.959_963_985 * error;
         let [low, high] = estimate.interval;

@@ -3,7 +3,7 @@
 use crate::experiments::prelude::*;
 use crate::params::{BiasParams, Means, MethodName, Setting};
 use impact_chain::Abreast;
-use impact_chain::methods::{Task, VerletAbreast, Window};
+use impact_chain::methods::{CountedSteps, HitGaps, Task, VerletAbreast};
 use rayon::prelude::*;
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -41,11 +41,11 @@ pub fn run(parameters: &BiasParams, progress: &Progress) -> Result<Biases, Error
                 return together(means, false);
             }
             if setting.method == MethodName::VerletAbreast {
-                let scenarios = (0..realisations as u64).map(|index| means.chains.scenario(index));
-                let scenarios: Vec<_> = scenarios.collect();
-                let window = Some(Window { after: means.transient, ends_with_one: false });
+                let drawn = (0..realisations as u64).map(|index| means.chains.scenario(index));
+                let scenarios = drawn.collect::<Vec<_>>();
+                let steps = CountedSteps { from: means.transient, until: HitGaps::All };
                 let verlet = VerletAbreast { step: setting.value };
-                let ran = verlet.run_all(&scenarios, means.chains.until, window, &mut |_, _| true);
+                let ran = verlet.count_gaps(&scenarios, means.chains.until, steps);
                 let (_, counts) = ran.map_err(|source| Error::failed("bias", source))?;
                 stage.advance(realisations as u64);
                 return Ok(counts.into_iter().map(Some).collect());

@@ -2,7 +2,7 @@
 
 use crate::experiments::prelude::*;
 use crate::params::{NucleationParams, Runs};
-use impact_circuits::nucleation::{ANGLES, COARSE, Chances, Reach, sigma_of_half};
+use impact_circuits::nucleation::{ANGLES, Chances, PAIR_ANGLES, Reach, sigma_at_which_half_close};
 use rayon::prelude::*;
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -38,7 +38,7 @@ pub fn run(parameters: &NucleationParams, progress: &Progress) -> Result<Nucleat
     let rows = parameters.runs().map(first_impacts).collect::<Result<_, _>>()?;
     let chain = &Chain::default();
     let reaches = Reach::within_times(chain, &parameters.times, ANGLES);
-    let ever = Reach::in_unlimited_time(chain, COARSE);
+    let ever = Reach::in_unlimited_time(chain, PAIR_ANGLES);
     let gaps = |&sigma: &f64| {
         let within = reaches.iter().map(|reach| Chances::new(chain, reach, sigma)).collect();
         Gaps { sigma, within, ever: Chances::new(chain, &ever, sigma) }
@@ -49,5 +49,5 @@ pub fn run(parameters: &NucleationParams, progress: &Progress) -> Result<Nucleat
     });
     let gaps = parameters.sigmas.par_iter().map(gaps).collect();
     let parameters = parameters.clone();
-    Ok(Nucleation { parameters, rows, gaps, curve, half: sigma_of_half(chain, &ever) })
+    Ok(Nucleation { parameters, rows, gaps, curve, half: sigma_at_which_half_close(chain, &ever) })
 }

@@ -12,7 +12,7 @@
 
 use super::counting::{ByDistance, Part};
 use crate::params::SeedsParams;
-use impact_circuits::nucleation::{ANGLES, COARSE, Chances, Reach};
+use impact_circuits::nucleation::{ANGLES, Chances, PAIR_ANGLES, Reach};
 use impact_numerics::estimates::jackknife;
 use impact_numerics::statistics::{Estimate, last_rise};
 use rayon::prelude::*;
@@ -63,7 +63,7 @@ fn closing(parameters: &SeedsParams) -> Vec<[Vec<f64>; 3]> {
     let chain = &parameters.chain;
     let edges: Vec<f64> = (1..=parameters.bins).map(|bin| bin as f64 * parameters.bin).collect();
     let reaches = Reach::within_times(chain, &edges, ANGLES);
-    let ever = Reach::in_unlimited_time(chain, COARSE);
+    let ever = Reach::in_unlimited_time(chain, PAIR_ANGLES);
     let in_each_bin = |variance: f64, share: f64| -> Vec<f64> {
         let mut by_then = vec![0.0];
         by_then

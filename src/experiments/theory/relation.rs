@@ -91,8 +91,8 @@ fn overlap(sigma: f64) -> f64 {
 /// Returns the largest relative difference of the closed form of Eq. (25) and the integral.
 fn eq25() -> f64 {
     largest([0.15, 0.2, 0.3, 0.5, 1.0].map(|sigma| {
-        let gap = known(ImpactProbability::of_paper(sigma));
-        (gap.p_by_double_integral(8) / known(gap.p()) - 1.0).abs()
+        let law = known(ImpactProbability::of_paper(sigma));
+        (law.p_by_double_integral(8) / known(law.p()) - 1.0).abs()
     }))
 }
 

@@ -1,6 +1,7 @@
 //! Compares Eqs. (20) to (25) with quadrature in 57-digit arithmetic.
 
 use crate::{Big, Gauss, big, exp, int, relative_error, root_two};
+use impact_chain::Chain;
 use impact_circuits::Error;
 use impact_circuits::impact_probability::ImpactProbability;
 use std::f64::consts::SQRT_2;
@@ -75,10 +76,12 @@ const SETTINGS: [(f64, f64, f64); 7] = [
 fn closed_forms_agree_with_quadrature_to_the_last_digits() {
     let gauss = Gauss::new(20);
     for (d, omega, forcing) in SETTINGS {
+        let (spacing, natural_frequency, forcing_frequency) = (d, omega, forcing);
+        let chain = Chain { spacing, natural_frequency, forcing_frequency, ..Chain::default() };
         for over_d in [1e-25, 1e-20, 1e-3, 0.0135, 0.02, 0.05, 0.15, 0.4, 0.5, 1.0, 10.0, 1e6] {
             let sigma = over_d * d;
             let case = format!("d {d} ω {omega} Ω {forcing} σ {sigma}");
-            let law = ImpactProbability::new(sigma, d, omega, forcing).unwrap();
+            let law = ImpactProbability::new(sigma, &chain).unwrap();
             let exact_case = Case::new(sigma, d, omega, forcing);
             let (least, factor) = exact_case.scaled_p(&gauss);
             let mut log = factor.ln() - &least;

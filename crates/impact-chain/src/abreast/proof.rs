@@ -129,7 +129,7 @@ impl Local {
         if self.is_open(part) { Outcome::Open } else { self.step_to_root(part) }
     }
 
-    /// Whether a test of both ends proves that there is no root.
+    /// Returns whether a test of both ends proves that there is no root.
     fn is_open(&self, Part { start, end, just_hit, tame, .. }: Part) -> bool {
         let ([f0, rate0], [f1, rate1]) = (self.width_and_rate(start), self.width_and_rate(end));
         if f1 <= MARGIN || !just_hit && f0 <= MARGIN {

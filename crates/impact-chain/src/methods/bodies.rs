@@ -4,7 +4,7 @@ use super::method::Task;
 use super::steps::Step;
 use crate::Error;
 use crate::forcing::{Component, Phases, phases};
-use crate::impact::jumps;
+use crate::impact::share_change;
 use crate::scenario::COMPONENTS;
 use crate::search::clock::{Instant, Rate};
 use crate::topology::Topology;
@@ -71,7 +71,7 @@ impl Bodies {
     pub fn hit(&mut self, k: usize, speed: f64) {
         let [left, right] = self.topology.sides(k);
         let change = speed + (self.restitution * speed).max(self.least_rebound);
-        let jumps = jumps(change, 0.0, self.topology.inverse_masses(k));
+        let jumps = share_change(change, self.topology.inverse_masses(k));
         self.v[left] += jumps[0];
         self.v[right] += jumps[1];
     }

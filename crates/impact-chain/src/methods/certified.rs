@@ -1,4 +1,4 @@
-//! Runs the engine of this project under the trait of its rivals.
+//! Runs the engine of this project as a `Method`, so that it can be compared with its rivals.
 
 use super::method::{Cost, Method, Sealed, Task};
 use super::steps::check_end;
@@ -8,8 +8,8 @@ use std::ops::ControlFlow::{Break, Continue};
 /// The exact event-driven engine: flight in closed form, the first root of each gap certified.
 ///
 /// - Source: this project, [`crate::Engine`].
-/// - Order: none, it has no step. The time of an impact is off by a few roundings of the gap over
-///   its speed.
+/// - Order: none, it has no step. The time of an impact is off by a few roundings of the width,
+///   divided by the closing speed.
 /// - Fails: nowhere within the model; a run that needs more events than its bound is an error.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Certified;

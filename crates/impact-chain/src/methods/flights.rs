@@ -5,7 +5,7 @@ use super::sign_change::is_open;
 use crate::Error;
 use crate::flight::INFLATION;
 use crate::forcing::{Component, Phases, phases};
-use crate::impact::jumps;
+use crate::impact::share_change;
 use crate::search::clock::{Instant, Rate};
 use crate::topology::Topology;
 
@@ -110,7 +110,7 @@ impl Flights {
         let sides = self.topology.sides(k);
         let inverse = self.topology.inverse_masses(k);
         let (sin, cos) = phases.0;
-        for (side, jump) in sides.into_iter().zip(jumps(speed + rebound, 0.0, inverse)) {
+        for (side, jump) in sides.into_iter().zip(share_change(speed + rebound, inverse)) {
             let kick = jump / self.omega;
             self.free[side][0] -= kick * sin;
             self.free[side][1] += kick * cos;

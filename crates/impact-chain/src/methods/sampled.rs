@@ -8,7 +8,7 @@ use super::steps::Step;
 use super::tally::{Stop, Tally};
 use crate::Error;
 use crate::forcing::Component;
-use crate::impact::jumps;
+use crate::impact::share_change;
 use crate::search::clock::{Instant, Rate};
 use crate::topology::Topology;
 use fearless_simd::{Simd, prelude::*};
@@ -23,14 +23,14 @@ use impact_numerics::roots::crossing;
 ///   simulations of impacting oscillators are mostly written so.
 /// - Order: none; an impact that is found is accurate to rounding, and the step decides whether it
 ///   is found.
-/// - Fails: three zeros within a step are taken for one, often the wrong one, and so is the first
-///   of two after an impact. A chatter has infinitely many impacts in a finite time: the bound on
-///   work ends the run there, unless a least rebound speed is given.
+/// - Fails: three zeros within a step are taken for one, often the wrong one; after an impact, two
+///   zeros within a step are taken for one. A chatter has infinitely many impacts in a finite time:
+///   the bound on work ends the run there, unless a least rebound speed is given.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sampled {
     /// Time h between two samples.
     pub step: f64,
-    /// The speed with which an impact opens its gap at least.
+    /// The least speed with which an impact opens its gap.
     pub least_rebound: f64,
 }
 
@@ -66,7 +66,7 @@ const CONVERGED: f64 = 1e-11;
 /// The most corrections; after them the bracket counts.
 const CORRECTIONS: usize = 60;
 
-/// Amplitudes of cosine and sine of each gap at one frequency.
+/// The part of all gaps at one frequency: their amplitudes of cosine and sine.
 struct Part {
     frequency: f64,
     rate: Rate,
@@ -76,6 +76,16 @@ struct Part {
     factors: [f64; TERMS],
 }
 
+/// A zero of a gap within the step.
+#[derive(Clone, Copy)]
+struct Root {
+    /// Time after the beginning of the step.
+    time: f64,
+    gap: usize,
+    closing_speed: f64,
+}
+
+/// The gaps of a chain, from step to step.
 struct Gaps {
     topology: Topology,
     spacing: f64,
@@ -83,22 +93,22 @@ struct Gaps {
     least_rebound: f64,
     /// The free part first. Gaps that fill the last register never close.
     parts: Vec<Part>,
-    /// The forced part of M₂ of each gap, and M₂ h²/8.
-    forced: Vec<f64>,
+    /// M₂ h²/8 of each gap: how far it may be below the chord of a step.
     sag: Vec<f64>,
+    /// Length of the step.
     h: f64,
-    /// Terms that a step needs.
+    /// Terms of the polynomial that a step of this length needs.
     terms: usize,
     /// The gaps below M₂ h²/8 at the end of the step, a bit each.
     low: Vec<u64>,
     /// (sin, cos) at the beginning of the step, or at the last impact.
-    now: Vec<(f64, f64)>,
+    phases_now: Vec<(f64, f64)>,
     /// (sin, cos) at the middle of the step.
-    middle: Vec<(f64, f64)>,
+    phases_at_middle: Vec<(f64, f64)>,
     /// Half the advance of each phase in a step, as (sin, cos).
-    half: Vec<(f64, f64)>,
-    /// Time after the beginning of the step, gap and closing speed of zeros.
-    roots: Vec<(f64, usize, f64)>,
+    half_step_angles: Vec<(f64, f64)>,
+    /// The first zero of each gap that closes in the rest of the step.
+    roots: Vec<Root>,
 }
 
 impl Gaps {
@@ -126,37 +136,34 @@ impl Gaps {
         for Component { frequency, cos, sin, .. } in &forced {
             parts.push(part(*frequency, &|m| [cos[m], sin[m]]));
         }
-        let bend = |k: usize| {
-            let bend = |part: &Part| part.frequency * part.frequency * part.reach(k);
-            parts[1..].iter().map(bend).sum()
-        };
         Ok(Gaps {
             topology,
             spacing,
             restitution,
             least_rebound,
-            forced: (0..length).map(bend).collect(),
             sag: vec![-1.0; length],
             h: 0.0,
             terms: TERMS,
             low: vec![u64::MAX; length.div_ceil(WORD)],
-            now: parts.iter().map(|part| part.rate.sin_cos(begin)).collect(),
-            middle: vec![(0.0, 1.0); parts.len()],
-            half: vec![(0.0, 1.0); parts.len()],
+            phases_now: parts.iter().map(|part| part.rate.sin_cos(begin)).collect(),
+            phases_at_middle: vec![(0.0, 1.0); parts.len()],
+            half_step_angles: vec![(0.0, 1.0); parts.len()],
             roots: Vec::new(),
             parts,
         })
     }
 
-    fn bend(&self, k: usize) -> f64 {
-        let free = &self.parts[0];
-        self.forced[k] + free.frequency * free.frequency * free.reach(k)
+    /// Returns M₂ h²/8 of gap k, with M₂ the bound of its curvature.
+    fn sag(&self, k: usize) -> f64 {
+        let bound_of_curvature = |part: &Part| part.frequency * part.frequency * part.reach(k);
+        let forced = self.parts[1..].iter().map(bound_of_curvature).sum::<f64>();
+        (forced + bound_of_curvature(&self.parts[0])) * self.h * self.h / 8.0
     }
 
-    /// Prepares for steps of another length.
-    fn lengthen(&mut self, h: f64) {
+    /// Sets the length of the next steps.
+    fn set_step(&mut self, h: f64) {
         self.h = h;
-        for (half, part) in self.half.iter_mut().zip(&self.parts) {
+        for (half, part) in self.half_step_angles.iter_mut().zip(&self.parts) {
             *half = part.rate.sin_cos(Instant::at(0.5 * h));
         }
         let needed = |part: &Part| {
@@ -166,7 +173,7 @@ impl Gaps {
         };
         self.terms = self.parts.iter().map(needed).fold(ROUGH, usize::max);
         for k in 0..self.topology.gaps() {
-            self.sag[k] = self.bend(k) * h * h / 8.0;
+            self.sag[k] = self.sag(k);
         }
     }
 
@@ -189,8 +196,8 @@ impl Gaps {
                 let k = first + look.trailing_zeros() as usize;
                 look &= look - 1;
                 if k < self.topology.gaps() {
-                    let start = self.width_and_rate(k, &self.now);
-                    self.locate(k, (0.0, start), step, tally);
+                    let start = self.width_and_rate(k, &self.phases_now);
+                    self.locate(k, 0.0, start, step, tally);
                 }
             }
         }
@@ -206,27 +213,30 @@ impl Gaps {
         })
     }
 
-    /// Adds the zero of gap k in the step from a time on, with width and rate then, if it closes.
-    fn locate(&mut self, k: usize, (from, start): (f64, [f64; 2]), step: &Step, tally: &mut Tally) {
+    /// Searches the rest of the step for the zero of gap k; `start` is its width and rate at the
+    /// time `from`.
+    fn locate(&mut self, k: usize, from: f64, start: [f64; 2], step: &Step, tally: &mut Tally) {
         tally.cost.evaluations += 2;
         let mut end = self.width_and_rate(k, step.phases);
         if start[0] <= 0.0 && start[1] < 0.0 {
-            self.roots.push((from, k, -start[1]));
+            self.roots.push(Root { time: from, gap: k, closing_speed: -start[1] });
             return;
         }
-        let is_open = is_open(end[0], end[1], self.spacing);
-        let dips = end[1] > 0.0 && start[1] < 0.0;
-        if is_open && !dips {
+        let ends_open = is_open(end[0], end[1], self.spacing);
+        let may_dip = end[1] > 0.0 && start[1] < 0.0;
+        if ends_open && !may_dip {
             return;
         }
         let half = 0.5 * self.h;
         let (mut low, mut high) = (from - half, half);
         let gap = Polynomial::about_middle(self, k);
         let value = |x: f64| gap.value(x, self.terms);
-        if is_open {
-            // Where the tangents at both ends meet above zero, so does a gap that is convex.
-            let meet = (end[0] * start[1] - start[0] * end[1]) - (high - low) * end[1] * start[1];
-            if meet < 0.0 {
+        if ends_open {
+            // A convex gap stays open if the tangents at both ends meet above zero. Their height
+            // there is this over start[1] − end[1] < 0.
+            let scaled_height =
+                (end[0] * start[1] - start[0] * end[1]) - (high - low) * end[1] * start[1];
+            if scaled_height < 0.0 {
                 return;
             }
             high = crossing([low, high], 1e-12 * self.h, |x| {
@@ -243,7 +253,7 @@ impl Gaps {
         let mut x = -2.0 * p0 / (p1 - inside.sqrt());
         let (mut moved, mut rate) = (f64::INFINITY, end[1]);
         for turn in 0..CORRECTIONS {
-            // Not at an end, nor by NaN.
+            // A step to an end, outside or to NaN is replaced by a bisection.
             if !(x > low && x < high) {
                 x = 0.5 * (low + high);
             }
@@ -253,8 +263,8 @@ impl Gaps {
                 *if f > 0.0 { &mut low } else { &mut high } = x;
             }
             let next = if slope < 0.0 { x - f / slope } else { f64::NAN };
-            let bend = 2.0 * p2 + x * (6.0 * p3 + x * (12.0 * p4 + x * 20.0 * p5));
-            rate = slope + bend * (next - x);
+            let curvature = 2.0 * p2 + x * (6.0 * p3 + x * (12.0 * p4 + x * 20.0 * p5));
+            rate = slope + curvature * (next - x);
             (moved, x) = ((next - x).abs(), next);
             if moved <= CONVERGED && turn > 0 || high - low <= f64::EPSILON * self.h {
                 break;
@@ -263,18 +273,19 @@ impl Gaps {
         if moved.is_nan() || moved > CONVERGED {
             (x, rate) = (low, value(low)[1]);
         }
-        self.roots.push((x + half, k, (-rate).max(0.0)));
+        self.roots.push(Root { time: x + half, gap: k, closing_speed: (-rate).max(0.0) });
     }
 
-    /// Lets gap k be hit, `s` after the beginning of the step.
-    fn hit(&mut self, (s, k, speed): (f64, usize, f64), step: &Step, tally: &mut Tally) {
-        let rebound = (self.restitution * speed).max(self.least_rebound);
-        let instant = step.from().after(s);
-        for (now, part) in self.now.iter_mut().zip(&self.parts) {
+    /// Carries out an impact.
+    fn hit(&mut self, root: Root, step: &Step, tally: &mut Tally) {
+        let Root { time, gap: k, closing_speed } = root;
+        let rebound = (self.restitution * closing_speed).max(self.least_rebound);
+        let instant = step.from().after(time);
+        for (now, part) in self.phases_now.iter_mut().zip(&self.parts) {
             *now = part.rate.sin_cos(instant);
         }
-        let (sin, cos) = self.now[0];
-        let jumps = jumps(speed + rebound, 0.0, self.topology.inverse_masses(k));
+        let (sin, cos) = self.phases_now[0];
+        let jumps = share_change(closing_speed + rebound, self.topology.inverse_masses(k));
         let [before, after] = self.topology.adjacent(k);
         let changes = [(Some(k), jumps[1] - jumps[0]), (before, jumps[0]), (after, -jumps[1])];
         for (j, change) in changes {
@@ -283,13 +294,14 @@ impl Gaps {
             self.parts[0].cos[j] -= kick * sin;
             self.parts[0].sin[j] += kick * cos;
         }
-        self.roots.retain(|root| root.1 != k && Some(root.1) != before && Some(root.1) != after);
+        self.roots.retain(|root| changes.iter().all(|(j, _)| *j != Some(root.gap)));
         for j in std::iter::once(k).chain(self.topology.near(k)) {
-            self.sag[j] = self.bend(j) * self.h * self.h / 8.0;
+            self.sag[j] = self.sag(j);
             let low = u64::from(self.width_and_rate(j, step.phases)[0] < self.sag[j]) << (j % WORD);
             self.low[j / WORD] = self.low[j / WORD] & !(1 << (j % WORD)) | low;
-            let start = if j == k { [0.0, rebound] } else { self.width_and_rate(j, &self.now) };
-            self.locate(j, (s, start), step, tally);
+            let start =
+                if j == k { [0.0, rebound] } else { self.width_and_rate(j, &self.phases_now) };
+            self.locate(j, time, start, step, tally);
         }
     }
 }
@@ -310,7 +322,7 @@ impl Polynomial {
     fn about_middle(gaps: &Gaps, k: usize) -> Polynomial {
         let mut terms = [0.0; TERMS];
         terms[0] = gaps.spacing;
-        for (part, (sin, cos)) in gaps.parts.iter().zip(&gaps.middle) {
+        for (part, (sin, cos)) in gaps.parts.iter().zip(&gaps.phases_at_middle) {
             let [a, b] = [part.cos[k], part.sin[k]];
             let (u, q) = (a * cos + b * sin, b * cos - a * sin);
             let derivatives = [u, q, -u, -q];
@@ -321,7 +333,7 @@ impl Polynomial {
         Polynomial { terms }
     }
 
-    /// Evaluates the gap and its rate by so many terms, the even powers apart from the odd.
+    /// Evaluates the gap and its rate by the first `terms` terms, even powers apart from odd.
     #[inline(always)]
     fn value(&self, x: f64, terms: usize) -> [f64; 2] {
         let square = x * x;
@@ -341,21 +353,21 @@ impl Stepper for Gaps {
     #[inline(always)]
     fn step<S: Simd>(&mut self, simd: S, step: &Step, tally: &mut Tally) -> Result<(), Stop> {
         if step.h != self.h {
-            self.lengthen(step.h);
+            self.set_step(step.h);
         }
-        let ends = step.phases.iter().zip(&self.half);
-        for (middle, ((sin, cos), (half_sin, half_cos))) in self.middle.iter_mut().zip(ends) {
+        let ends = step.phases.iter().zip(&self.half_step_angles);
+        let middles = self.phases_at_middle.iter_mut();
+        for (middle, ((sin, cos), (half_sin, half_cos))) in middles.zip(ends) {
             *middle = (sin * half_cos - cos * half_sin, cos * half_cos + sin * half_sin);
         }
         tally.cost.evaluations += self.topology.gaps() as u64;
         self.sample(simd, step, tally);
-        while let Some(root) =
-            self.roots.iter().copied().reduce(|a, b| if b.0 < a.0 { b } else { a })
-        {
+        let earlier = |a: Root, b: Root| if b.time < a.time { b } else { a };
+        while let Some(root) = self.roots.iter().copied().reduce(earlier) {
             self.hit(root, step, tally);
-            tally.event(root.1, step.from().after(root.0).time(), root.2)?;
+            tally.event(root.gap, step.from().after(root.time).time(), root.closing_speed)?;
         }
-        self.now.copy_from_slice(step.phases);
+        self.phases_now.copy_from_slice(step.phases);
         Ok(())
     }
 }
@@ -376,7 +388,7 @@ mod tests {
             Task { scenario: &scenario, start: &State::from_scenario(&scenario), until: 1.0 };
         let mut gaps = Gaps::new(task, 0.0).unwrap();
         for (h, terms) in [(0.5, 16), (0.1, 11), (1e-3, ROUGH)] {
-            gaps.lengthen(h);
+            gaps.set_step(h);
             assert_eq!(gaps.terms, terms, "{h}");
             assert!((gaps.sag[0] - 0.9 * h * h / 8.0).abs() < 1e-16, "{h}: {}", gaps.sag[0]);
         }

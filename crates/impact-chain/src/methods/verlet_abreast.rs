@@ -3,17 +3,17 @@
 use super::method::{Cost, Method, Sealed, Task};
 use super::steps::{Steps, check_end};
 use crate::forcing::gap_amplitudes;
-use crate::impact::jumps;
+use crate::impact::share_change;
 use crate::search::clock::Rate;
 use crate::topology::Topology;
 use crate::vectors::vector_level;
 use crate::{Error, Impact, Scenario, Sink, State};
 use fearless_simd::{dispatch, f32x16, prelude::*};
 
-/// Chains side by side.
+/// Number of chains in one register.
 const LANES: usize = 16;
 
-/// After so many impacts of adjacent gaps, each by the last, a step is left as it is.
+/// Longest row of impacts, each caused by the one before, followed within one step.
 const DEEPEST: u32 = 8;
 
 /// A gap may dip in a step if it is narrower than this times (ωh)² d at its end: M₂ h²/8 where
@@ -37,69 +37,98 @@ pub struct VerletAbreast {
     pub step: f64,
 }
 
-/// The steps in which gaps with an impact are counted.
+/// The steps in which gaps with an impact are counted: from a time on, until a chain ends.
 #[derive(Clone, Copy, Debug)]
-pub struct Window {
+pub struct CountedSteps {
     /// The time at or after which these steps begin.
-    pub after: f64,
-    /// Whether a chain ends when one gap is hit there, not all.
-    pub ends_with_one: bool,
+    pub from: f64,
+    /// What ends a chain before the end of the run.
+    pub until: HitGaps,
+}
+
+/// How many gaps have to be hit.
+#[derive(Clone, Copy, Debug)]
+pub enum HitGaps {
+    /// One gap.
+    One,
+    /// All gaps.
+    All,
 }
 
 /// Receives the number of a chain and an impact; returns false to end the chain.
-pub type Receiver<'a> = dyn FnMut(usize, Impact) -> bool + 'a;
+pub type ChainSink<'a> = &'a mut dyn FnMut(usize, Impact) -> bool;
+
+/// The number of a chain, and the amplitudes of its gaps.
+type ActiveChain = (usize, Vec<[f64; 4]>);
 
 impl VerletAbreast {
-    /// Runs chains that differ in forces and starts only, and hands each impact to `sink`,
-    /// sorted within a step.
-    ///
-    /// With a window, no impact is handed on; instead, the gaps of each chain with an impact in it
-    /// are counted, and a chain ends when all are hit, or one.
+    /// Runs chains that differ in forces and starts only; hands on impacts, sorted within a step.
     ///
     /// # Errors
     /// As [`Method::run`], and [`Error::Input`] for different chains.
-    pub fn run_all(
+    pub fn run_all(&self, chains: &[Scenario], until: f64, sink: ChainSink) -> Result<Cost, Error> {
+        Ok(self.simulate(chains, until, None, sink)?.0)
+    }
+
+    /// Runs chains likewise, and returns for each how many gaps have an impact in some steps.
+    ///
+    /// # Errors
+    /// As [`Self::run_all`].
+    pub fn count_gaps(
         &self,
-        scenarios: &[Scenario],
+        chains: &[Scenario],
         until: f64,
-        window: Option<Window>,
-        sink: &mut Receiver,
+        steps: CountedSteps,
     ) -> Result<(Cost, Vec<u32>), Error> {
-        let (h, mut ready, mut cost) = (self.step, Vec::new(), Cost::default());
-        let mut counts = vec![0; scenarios.len()];
-        let Some(like) = scenarios.first() else { return Ok((cost, counts)) };
-        for (chain, scenario) in scenarios.iter().enumerate() {
+        self.simulate(chains, until, Some(steps), &mut |_, _| true)
+    }
+
+    /// Hands on impacts, or counts gaps if there are steps in which to count.
+    fn simulate(
+        &self,
+        chains: &[Scenario],
+        until: f64,
+        counted: Option<CountedSteps>,
+        sink: ChainSink,
+    ) -> Result<(Cost, Vec<u32>), Error> {
+        let (h, mut may_close, mut cost) = (self.step, Vec::new(), Cost::default());
+        let mut counts = vec![0; chains.len()];
+        let Some(first_scenario) = chains.first() else { return Ok((cost, counts)) };
+        for (number, scenario) in chains.iter().enumerate() {
             scenario.validate()?;
             scenario.check_uniform()?;
-            let Scenario { forcing, initial, .. } = like.clone();
+            let Scenario { forcing, initial, .. } = first_scenario.clone();
             let alike = forcing.len() == scenario.forcing.len()
-                && *like == Scenario { forcing, initial, ..scenario.clone() };
-            if !alike || !like.overtones.is_empty() {
+                && *first_scenario == Scenario { forcing, initial, ..scenario.clone() };
+            if !alike || !first_scenario.overtones.is_empty() {
                 let problem = "verlet-abreast supports equal chains with one frequency";
                 return Err(Error::input("forcing_frequencies", problem, "use another method"));
             }
             let gaps = gap_amplitudes(scenario);
-            let reach = |[a, b, c, d]: [f64; 4]| (a * a + b * b).sqrt() + (c * c + d * d).sqrt();
+            let length = |cos: f64, sin: f64| (cos * cos + sin * sin).sqrt();
+            let reach =
+                |[a, b, forced_a, forced_b]: [f64; 4]| length(a, b) + length(forced_a, forced_b);
             if gaps.iter().any(|gap| reach(*gap) >= 1.0) {
-                ready.push((chain, gaps));
+                may_close.push((number, gaps));
             }
         }
         let start = State { time: 0.0, positions: Vec::new(), velocities: Vec::new() };
-        // Half a step more, which is not made: all that are made are whole.
+        // The end lies half a step late, so that the shortened last step is dropped and all others
+        // are whole.
         let end = ((until / h).ceil() + 0.5) * h;
-        let task = Task { scenario: like, start: &start, until: end };
-        let steps = Steps::new(task, h, vec![Rate::new(like.forcing_frequency)])?;
-        for group in ready.chunks(LANES) {
-            let mut lanes = Lanes { until, window, ..Lanes::new(like, h, group) };
+        let task = Task { scenario: first_scenario, start: &start, until: end };
+        let steps = Steps::new(task, h, vec![Rate::new(first_scenario.forcing_frequency)])?;
+        for group in may_close.chunks(LANES) {
+            let mut lanes = Lanes { until, counted, ..Lanes::new(first_scenario, h, group) };
             dispatch!(vector_level(), simd => lanes.run(simd, &steps, sink));
-            cost.impacts += lanes.impacts;
-            cost.steps += lanes.steps;
-            for (lane, (chain, _)) in group.iter().enumerate() {
-                let hit = lanes.gaps.iter().map(|gap| u32::from(gap.hit >> lane & 1));
-                counts[*chain] = hit.sum();
+            cost.impacts += lanes.cost.impacts;
+            cost.steps += lanes.cost.steps;
+            for (lane, (number, _)) in group.iter().enumerate() {
+                let hit = lanes.gaps.iter().map(|gap| u32::from(gap.has_impact_bits >> lane & 1));
+                counts[*number] = hit.sum();
             }
         }
-        cost.evaluations = 2 * like.boundary.gaps(like.forcing.len()) as u64 * cost.steps;
+        cost.evaluations = 2 * first_scenario.gaps() as u64 * cost.steps;
         Ok((cost, counts))
     }
 }
@@ -116,92 +145,104 @@ impl Method for VerletAbreast {
         let Task { scenario, start, until } = task;
         let begin = start.time;
         let mut later = |_, impact: Impact| sink(Impact { time: begin + impact.time, ..impact });
-        let scenarios = [start.as_scenario(scenario)?];
-        Ok(self.run_all(&scenarios, until - begin, None, &mut later)?.0)
+        self.run_all(&[start.as_scenario(scenario)?], until - begin, &mut later)
     }
 }
 
-/// A gap in all lanes, in units of d and of the step: how far it is wider than d, its growth in the
-/// last step, and the amplitudes of its force; a bit for each lane in which it was hit.
+/// A gap in all lanes, in units of d and of the step.
 #[derive(Clone, Copy, Default)]
 #[repr(align(64))]
 struct Gap {
+    /// How far it is wider than d.
     u: [f32; LANES],
+    /// The growth of u in the last step.
     v: [f32; LANES],
+    /// The amplitudes of cos Ωt and sin Ωt of what the force adds to v in a step.
     cos: [f32; LANES],
     sin: [f32; LANES],
-    hit: u16,
+    /// A bit for each lane in which it had an impact in the counted steps.
+    has_impact_bits: u16,
 }
 
+/// Up to 16 chains side by side.
 #[derive(Default)]
 struct Lanes {
+    /// Length of a step, in units of time.
     h: f64,
+    /// Distance d between equilibria.
     spacing: f64,
-    /// ωh, 2 (1 − cos ωh), (1 + r)/ωh.
+    /// ωh, by which the free motion turns in a step.
     turn: f32,
+    /// 2 (1 − cos ωh): what u takes from v in a step. Verlet has (ωh)², which is not exact.
     pull: f32,
+    /// (1 + r)/ωh: the amplitude of the free motion that an impact of speed 1 adds.
     rebound: f32,
-    /// A gap that may dip is narrower, in units of d, less 1.
+    /// A gap whose u is below this at the end of a step may have closed within it.
     low: f32,
     /// Number of the first gap in results.
     first: usize,
-    /// The gaps beside each, with their parts of its jump; the last of `gaps` stands for none.
-    near: Vec<[(usize, f32); 2]>,
+    /// The gaps beside each, with the shares of its jump that they get; the last stands for none.
+    adjacent: Vec<[(usize, f32); 2]>,
+    /// The gaps, and one more that never has an impact.
     gaps: Vec<Gap>,
-    /// Numbers of the chains, and a bit for each that has not ended.
+    /// The number of the chain in each lane.
     chains: Vec<usize>,
+    /// A bit for each lane whose chain has not ended.
     live: u16,
+    /// The time after which impacts are not handed on.
     until: f64,
-    window: Option<Window>,
-    /// Whether impacts are counted by gaps.
-    counts: bool,
-    /// Gaps to look at, each with its lanes; in one lane, with the impacts that led to each.
-    looks: Vec<(usize, u16)>,
+    /// The steps in which gaps are counted; without them impacts are handed on.
+    counted: Option<CountedSteps>,
+    /// Whether this step is one of those.
+    is_counting: bool,
+    /// Gaps that may have closed in this step, and a bit for each lane in which they may.
+    may_have_closed: Vec<(usize, u16)>,
+    /// Gaps to look at in one lane, and how many impacts led to each.
     stack: Vec<(usize, u32)>,
-    /// Impacts of a step, with their lanes.
+    /// Lanes and impacts of this step.
     step_impacts: Vec<(usize, Impact)>,
-    impacts: u64,
-    steps: u64,
+    /// Impacts and steps so far, in all lanes.
+    cost: Cost,
 }
 
 impl Lanes {
-    fn new(like: &Scenario, h: f64, group: &[(usize, Vec<[f64; 4]>)]) -> Lanes {
-        let topology = Topology::new(like.forcing.len(), like.boundary);
-        let angles = [like.natural_frequency * h, like.forcing_frequency * h];
-        let [pull, big_pull] = angles.map(|angle| {
+    fn new(scenario: &Scenario, h: f64, group: &[ActiveChain]) -> Lanes {
+        let topology = Topology::new(scenario.forcing.len(), scenario.boundary);
+        let angles = [scenario.natural_frequency * h, scenario.forcing_frequency * h];
+        let [pull, forced_pull] = angles.map(|angle| {
             let sin = pxfm::f_sin(0.5 * angle);
             4.0 * sin * sin
         });
         let [(sin, cos), (big_sin, big_cos)] = angles.map(pxfm::f_sincos);
-        let number = topology.gaps();
-        let mut gaps = vec![Gap::default(); number + 1];
+        let none = topology.gaps();
+        let mut gaps = vec![Gap::default(); none + 1];
         for (lane, (_, amplitudes)) in group.iter().enumerate() {
-            for (gap, &[a, b, c, d]) in gaps.iter_mut().zip(amplitudes) {
-                let before = a * cos - b * sin + c * big_cos - d * big_sin;
-                gap.u[lane] = (a + c) as f32;
-                gap.v[lane] = (a + c - before) as f32;
-                gap.cos[lane] = ((pull - big_pull) * c) as f32;
-                gap.sin[lane] = ((pull - big_pull) * d) as f32;
+            for (gap, &[a, b, forced_a, forced_b]) in gaps.iter_mut().zip(amplitudes) {
+                let before = a * cos - b * sin + forced_a * big_cos - forced_b * big_sin;
+                gap.u[lane] = (a + forced_a) as f32;
+                gap.v[lane] = (a + forced_a - before) as f32;
+                gap.cos[lane] = ((pull - forced_pull) * forced_a) as f32;
+                gap.sin[lane] = ((pull - forced_pull) * forced_b) as f32;
             }
         }
-        let near = |k| {
-            let [left, right] = jumps(1.0, 0.0, topology.inverse_masses(k)).map(|x| x as f32);
-            let [before, after] = topology.adjacent(k).map(|near| near.unwrap_or(number));
+        let adjacent = |k| {
+            let [left, right] = share_change(1.0, topology.inverse_masses(k)).map(|x| x as f32);
+            let [before, after] = topology.adjacent(k).map(|gap| gap.unwrap_or(none));
             [(before, left), (after, -right)]
         };
         Lanes {
             h,
-            spacing: like.spacing,
+            spacing: scenario.spacing,
             turn: angles[0] as f32,
             pull: pull as f32,
-            rebound: ((1.0 + like.restitution) / angles[0]) as f32,
+            rebound: ((1.0 + scenario.restitution) / angles[0]) as f32,
             low: (DIP * angles[0] * angles[0] - 1.0) as f32,
             first: topology.label(0),
-            near: (0..number).map(near).collect(),
+            adjacent: (0..none).map(adjacent).collect(),
             gaps,
-            chains: group.iter().map(|(chain, _)| *chain).collect(),
+            chains: group.iter().map(|(number, _)| *number).collect(),
             live: ((1u32 << group.len()) - 1) as u16,
-            looks: vec![(0, 0); number + 1],
+            may_have_closed: vec![(0, 0); none + 1],
             ..Lanes::default()
         }
     }
@@ -216,35 +257,43 @@ impl Lanes {
         }
     }
 
-    /// Runs the chains to a time.
+    /// Runs the chains to the last whole step.
     #[inline(always)]
-    fn run<S: Simd>(&mut self, simd: S, steps: &Steps, sink: &mut Receiver) {
-        let (mut i, mut time, mut from) = (0, 0.0, [1.0, 0.0]);
+    fn run<S: Simd>(&mut self, simd: S, steps: &Steps, sink: ChainSink) {
+        let (mut i, mut time, mut from) = (0, 0.0, (0.0, 1.0));
         let _ = steps.each(
             #[inline(always)]
             |step| {
+                // The last step, half as long, is the one to be dropped.
                 if self.live == 0 || step.h < 0.75 * self.h {
                     return Err(());
                 }
-                self.counts = self.window.is_some_and(|window| time >= window.after);
-                self.steps += u64::from(self.live.count_ones());
+                self.is_counting = self.counted.is_some_and(|counted| time >= counted.from);
+                self.cost.steps += u64::from(self.live.count_ones());
                 let number = self.leap(simd, from);
-                let to = [step.phases[0].1 as f32, step.phases[0].0 as f32];
-                let mean = [0, 1].map(|i| 0.5 * (from[i] + to[i]));
+                let to = (step.phases[0].0 as f32, step.phases[0].1 as f32);
+                let mean = (0.5 * (from.0 + to.0), 0.5 * (from.1 + to.1));
                 (i, time, from) = (i + 1, step.to().time(), to);
-                for look in 0..number {
-                    let (k, mut lanes) = self.looks[look];
+                for index in 0..number {
+                    let (k, mut lanes) = self.may_have_closed[index];
                     while lanes != 0 {
-                        self.hit(k, lanes.trailing_zeros() as usize, mean, time);
+                        self.take_impacts(k, lanes.trailing_zeros() as usize, mean, time);
                         lanes &= lanes - 1;
                     }
                 }
-                match self.window {
+                match self.counted {
                     None => self.report(sink),
-                    Some(window) if self.counts && i % 4 == 0 => {
-                        let hit = self.gaps[..self.near.len()].iter().map(|gap| gap.hit);
-                        let (any, all) = hit.fold((0, !0), |of, hit| (of.0 | hit, of.1 & hit));
-                        self.end(self.live & if window.ends_with_one { any } else { all });
+                    // Ends are looked for in every fourth step only.
+                    Some(counted) if self.is_counting && i % 4 == 0 => {
+                        let gaps = &self.gaps[..self.adjacent.len()];
+                        let bits = gaps.iter().map(|gap| gap.has_impact_bits);
+                        self.end(
+                            self.live
+                                & match counted.until {
+                                    HitGaps::One => bits.fold(0, |any, bits| any | bits),
+                                    HitGaps::All => bits.fold(!0, |all, bits| all & bits),
+                                },
+                        );
                     }
                     Some(_) => (),
                 }
@@ -253,11 +302,12 @@ impl Lanes {
         );
     }
 
-    /// Moves all gaps by a step; lists those to look at and returns their number.
+    /// Moves all gaps by a step that begins at (sin Ωt, cos Ωt); lists those that may have closed
+    /// in it, and returns their number.
     #[inline(always)]
-    fn leap<S: Simd>(&mut self, simd: S, [cos, sin]: [f32; 2]) -> usize {
+    fn leap<S: Simd>(&mut self, simd: S, (sin, cos): (f32, f32)) -> usize {
         let mut number = 0;
-        for (k, gap) in self.gaps[..self.near.len()].iter_mut().enumerate() {
+        for (k, gap) in self.gaps[..self.adjacent.len()].iter_mut().enumerate() {
             let row = |row| f32x16::from_slice(simd, row);
             let u = row(&gap.u);
             let force = row(&gap.cos) * cos + row(&gap.sin) * sin;
@@ -266,68 +316,70 @@ impl Lanes {
             u.store_slice(&mut gap.u);
             v.store_slice(&mut gap.v);
             let lanes = u.simd_lt(self.low).to_bitmask() as u16;
-            self.looks[number] = (k, lanes);
+            self.may_have_closed[number] = (k, lanes);
             number += usize::from(lanes != 0);
         }
         number
     }
 
-    /// Finds the impact of a gap in a lane and those to which it leads beside it, in a step that
-    /// ends at a time and has these phases in the mean.
+    /// Takes the impact of a gap in a lane, and those to which it leads beside it, in a step that
+    /// ends at `time`; sin Ωt and cos Ωt are the means of both its ends.
     #[inline(always)]
-    fn hit(&mut self, k: usize, lane: usize, [cos, sin]: [f32; 2], time: f64) {
+    fn take_impacts(&mut self, k: usize, lane: usize, (sin, cos): (f32, f32), time: f64) {
         self.stack.push((k, 0));
         while let Some((k, depth)) = self.stack.pop() {
             let gap = &mut self.gaps[k];
             let (u, v) = (gap.u[lane], gap.v[lane]);
-            // The width is w − p s + q s²/2 when s steps are left.
+            // With x steps left the width is width − rate x + acceleration x²/2.
             let force = gap.cos[lane] * cos + gap.sin[lane] * sin;
-            let (w, q) = (u + 1.0, force - (u - 0.5 * v) * self.pull);
-            let p = v + 0.5 * q;
-            let inside = p * p - 2.0 * w * q;
-            let root = inside.max(0.0).sqrt();
-            let s = if w < 0.0 {
-                let s = if p < 0.0 { 2.0 * w / (p - root) } else { (p + root) / q };
-                if p < 0.0 || q > 0.0 { s.min(1.5) } else { 1.0 }
-            } else if 0.0 <= p && p < q && inside > 0.0 && p + root <= q {
-                (p + root) / q
+            let (width, acceleration) = (u + 1.0, force - (u - 0.5 * v) * self.pull);
+            let rate = v + 0.5 * acceleration;
+            let discriminant = rate * rate - 2.0 * width * acceleration;
+            let root = discriminant.max(0.0).sqrt();
+            let earlier_zero = (rate + root) / acceleration;
+            let dips = (0.0..acceleration).contains(&rate) && discriminant > 0.0;
+            let steps_left = if width < 0.0 {
+                let zero = if rate < 0.0 { 2.0 * width / (rate - root) } else { earlier_zero };
+                if rate < 0.0 || acceleration > 0.0 { zero.min(1.5) } else { 1.0 }
+            } else if dips && rate + root <= acceleration {
+                earlier_zero
             } else {
                 continue;
             };
-            let speed = q * s - p;
-            let opens = speed > 0.0;
-            if !opens {
+            let speed = acceleration * steps_left - rate;
+            if speed <= 0.0 || speed.is_nan() {
                 continue;
             }
+            // The free motion that the impact adds, as if it had been there a step before the end.
             let jump = speed * self.rebound;
-            let x = jump * sine(s * self.turn);
-            let y = x + jump * sine(self.turn - s * self.turn);
-            gap.hit |= u16::from(self.counts) << lane;
-            (gap.u[lane], gap.v[lane]) = (u + x, v + y);
-            self.impacts += 1;
-            if self.window.is_none() {
-                let time = time - f64::from(s.min(1.0)) * self.h;
+            let change = jump * sine(steps_left * self.turn);
+            let growth = change + jump * sine(self.turn - steps_left * self.turn);
+            gap.has_impact_bits |= u16::from(self.is_counting) << lane;
+            (gap.u[lane], gap.v[lane]) = (u + change, v + growth);
+            self.cost.impacts += 1;
+            if self.counted.is_none() {
+                let time = time - f64::from(steps_left.min(1.0)) * self.h;
                 let closing_speed = f64::from(speed) * self.spacing / self.h;
                 let gap = self.first + k;
                 self.step_impacts.push((lane, Impact { time, gap, closing_speed }));
             }
-            for (near, part) in self.near[k] {
-                let gap = &mut self.gaps[near];
-                gap.u[lane] += part * x;
-                gap.v[lane] += part * y;
+            for (adjacent, share) in self.adjacent[k] {
+                let gap = &mut self.gaps[adjacent];
+                gap.u[lane] += share * change;
+                gap.v[lane] += share * growth;
                 if gap.u[lane] < -1.0 && depth < DEEPEST {
-                    self.stack.push((near, depth + 1));
+                    self.stack.push((adjacent, depth + 1));
                 }
             }
         }
     }
 
     /// Hands on the impacts of a step.
-    fn report(&mut self, sink: &mut Receiver) {
+    fn report(&mut self, sink: ChainSink) {
         self.step_impacts.sort_by(|a, b| a.1.time.total_cmp(&b.1.time));
         for (lane, impact) in std::mem::take(&mut self.step_impacts) {
             if self.live >> lane & 1 == 0 || impact.time > self.until {
-                self.impacts -= 1;
+                self.cost.impacts -= 1;
             } else if !sink(self.chains[lane], impact) {
                 self.end(1 << lane);
             }

@@ -100,7 +100,7 @@ impl Earliest {
         (index, self.keys[index])
     }
 
-    /// Whether another word agrees with that of `index`, the first, except for the index.
+    /// Returns whether another word agrees with that of `index`, the first, except for the index.
     #[inline(always)]
     pub fn is_close(&self, index: usize) -> bool {
         // Such a word, or another that agrees with it, lost to this one on its way up.

@@ -81,7 +81,7 @@ impl<const M: usize> Search<M> {
         self.by_pieces(frame, work)
     }
 
-    /// Decides whether a root at s > 0 where f falls with `speed` is the first, given that the
+    /// Returns whether a root at s > 0 where f falls with `speed` is the first, given that the
     /// coefficients of the whole reach change their sign once.
     /// Their polynomial q lies below f and is above zero before its one root (Descartes). With M₂
     /// ≥ |f''|, f ≥ speed h − M₂ h²/2 at s − h, so there is no root within speed/M₂

@@ -33,26 +33,31 @@ impl<const M: usize> Eighths<M> {
         Eighths { values, width }
     }
 
-    /// Guesses the root of a function that falls below zero once: the secant of its eighth.
+    /// Guesses the root of a function that falls below zero once, by the secant over the eighth in
+    /// which it changes sign.
     #[inline(always)]
     pub fn guess(&self, frame: &Frame<M>) -> f64 {
         let row = self.values.evaluate(frame).map(|x| x + splat(frame.f0));
-        let below = signs(row.map(|x| less(x, splat(0.0))));
+        let below = sign_bits(row.map(|x| less(x, splat(0.0))));
         let [[a, b], [c, d], [e, f], [g, h]] = row.map(Pair::to_array);
         let values = [frame.f0, a, b, c, d, e, f, g, h];
-        let last = (below | 1 << (N - 1)).trailing_zeros() as usize % N;
-        let (high, low) = (values[last], values[last + 1]);
-        self.width * (last as f64 + high / (high - low))
+        // Bit i is set if values[i + 1] is below zero, so at the lowest set bit values[i] is the
+        // last positive one; bit 7 is always set, so that there is one.
+        let last_positive = (below | 1 << (N - 1)).trailing_zeros() as usize % N;
+        let (high, low) = (values[last_positive], values[last_positive + 1]);
+        self.width * (last_positive as f64 + high / (high - low))
     }
 }
 
 /// Packs the results of eight comparisons into one bit each.
 #[inline(always)]
-fn signs(masks: CoefficientPairs) -> u32 {
+fn sign_bits(masks: CoefficientPairs) -> u32 {
     let [a, b, c, d] = masks.map(|mask| pair::signs(mask) as u32);
     (a | b << 2) | (c << 4 | d << 6)
 }
 
+/// A part of the reach on which functions are bounded from below, with the factors of its
+/// coefficients.
 #[derive(Clone, Copy, Debug)]
 pub struct Piece<const M: usize> {
     /// a, where the piece begins.
@@ -60,12 +65,13 @@ pub struct Piece<const M: usize> {
     /// w, its width.
     pub width: f64,
     factors: Linear<M, { N / 2 }>,
-    /// The largest difference between f and p over M₄, as it enters b₄, and 0 for b₃.
-    difference: Pair,
-    /// The largest effect of the same difference on b_{i+1} − b_i.
-    difference_of_slope: f64,
+    /// (0, most that b₄ falls by, over M₄): what the difference of f and p takes from b₃ and b₄.
+    difference_over_bound: Pair,
+    /// The largest effect of the same difference on b_{i+1} − b_i, over M₄.
+    difference_of_neighbours: f64,
 }
 
+/// The Bernstein coefficients b₁ … b₈ of q over a piece.
 #[derive(Clone, Copy, Debug)]
 pub struct Coefficients {
     row: CoefficientPairs,
@@ -73,7 +79,8 @@ pub struct Coefficients {
     slack: f64,
 }
 
-/// Returns C(i, k) k! (8 − k)!/8! wᵏ: the k-th Taylor coefficient in the i-th of Bernstein.
+/// Returns C(i, k) k! (8 − k)!/8! wᵏ: the factor of the k-th Taylor coefficient in the i-th
+/// Bernstein coefficient.
 fn weight(i: usize, k: usize, w: f64) -> f64 {
     (0..k).fold(1.0, |product, m| product * ((i - m) as f64 * w / (N - m) as f64))
 }
@@ -103,14 +110,14 @@ impl<const M: usize> Piece<M> {
         let end = start + width;
         let fast2 = frequencies.fastest * frequencies.fastest;
         let width2 = width * width;
-        let eighth = fast2 * fast2 * (width2 * width2) * (width2 * width2) / 40_320.0;
+        let remainder = fast2 * fast2 * (width2 * width2) * (width2 * width2) / 40_320.0;
         Piece {
             start,
             width,
             factors: Linear::new(frequencies, |f| hermite(f(start), f(end), width)),
-            difference: Pair::from([0.0, eighth / 70.0]),
+            difference_over_bound: Pair::from([0.0, remainder / 70.0]),
             // |f' − p'| ≤ M₈ max |t³ (w − t)³ (t − ξ)|/7! ≤ M₈ w⁷/(64 · 7!), times w/8.
-            difference_of_slope: eighth / 64.0,
+            difference_of_neighbours: remainder / 64.0,
         }
     }
 
@@ -118,7 +125,7 @@ impl<const M: usize> Piece<M> {
     #[inline(always)]
     pub fn largest_difference(&self, frame: &Frame<M>) -> f64 {
         // f − q ≤ 2 M₈ (w/2)⁸/8!, which is 140/256 of b₄'s part, so b₄'s part is enough.
-        let [_, difference] = self.difference.to_array();
+        let [_, difference] = self.difference_over_bound.to_array();
         frame.bound * difference + SLACK * frame.size
     }
 
@@ -126,17 +133,17 @@ impl<const M: usize> Piece<M> {
     #[inline(always)]
     pub fn coefficients(&self, frame: &Frame<M>) -> Coefficients {
         let mut row = self.factors.evaluate(frame).map(|x| x + splat(frame.f0));
-        row[1] += splat(-frame.bound) * self.difference;
+        row[1] += splat(-frame.bound) * self.difference_over_bound;
         Coefficients { row, slack: SLACK * frame.size }
     }
 
-    /// Guesses the root, from the frame's instant, if f falls from `first` to < 0, or returns
-    /// `None` if it may not.
+    /// Guesses the root, from the frame's instant, or returns `None` if the coefficients do not
+    /// show that f falls throughout, from `first` to below zero.
     #[inline(always)]
     pub fn only_root(&self, frame: &Frame<M>, first: f64, c: &Coefficients) -> Option<f64> {
         let [b1, b2, b3, b4, b5, b6, b7, b8] = c.to_array();
         let before = [[first, b1], [b2, b3], [b4, b5], [b6, b7]].map(Pair::from);
-        let slack = splat(c.slack + self.difference_of_slope * frame.bound);
+        let slack = splat(c.slack + self.difference_of_neighbours * frame.bound);
         let falls: [Pair; N / 2] = std::array::from_fn(|i| less(c.row[i], before[i] - slack));
         let all_fall = pair::signs((falls[0] & falls[1]) & (falls[2] & falls[3])) == 0b11;
         if !all_fall || b8 >= -c.slack {
@@ -160,12 +167,12 @@ impl<const M: usize> Piece<M> {
     }
 }
 
-/// Rounding of a coefficient: at most a dozen roundings of terms that are each below a few sizes.
-/// Few of them add up, so no test needs half of it; without it values at the ends may be off.
+/// Rounding of a coefficient, in units of the frame's size: at most a dozen roundings of terms that
+/// are each below a few sizes. Few of them add up: in tests b₁ and b₈ are off by less than half.
 const SLACK: f64 = 64.0 * f64::EPSILON;
 
 impl Coefficients {
-    /// Whether b₁ … b₈ are positive beyond rounding, so f > 0 on (a, a + w] if f(a) ≥ 0.
+    /// Returns whether b₁ … b₈ are positive beyond rounding, so f > 0 on (a, a + w] if f(a) ≥ 0.
     #[inline(always)]
     pub fn are_positive(&self) -> bool {
         let [a, b, c, d] = self.row;
@@ -173,11 +180,11 @@ impl Coefficients {
         pair::signs(less(splat(self.slack), least)) == 0b11
     }
 
-    /// Whether the signs of b₁ … b₈, not all plus, change at most once, from plus to minus.
+    /// Returns whether the signs of b₁ … b₈, not all plus, change at most once, from plus to minus.
     #[inline(always)]
     pub fn change_sign_once(&self) -> bool {
-        let plus = signs(self.row.map(|b| less(splat(self.slack), b)));
-        let minus = signs(self.row.map(|b| less(b, splat(-self.slack))));
+        let plus = sign_bits(self.row.map(|b| less(splat(self.slack), b)));
+        let minus = sign_bits(self.row.map(|b| less(b, splat(-self.slack))));
         // Plus from the lowest bit on, and minus all others.
         (plus & (plus + 1) == 0) & (plus + minus == (1 << N) - 1)
     }

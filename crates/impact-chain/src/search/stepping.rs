@@ -79,7 +79,7 @@ fn by_one_term<const M: usize>(f: f64, p: &Point<M>, bound: f64) -> [f64; 2] {
     [by_rate.min(pxfm::f_cbrt(4.0 * p.d1 / bound)), by_width.min((4.0 * f / bound).sqrt().sqrt())]
 }
 
-/// Decides whether f > 0 is certain on (a, a + h), from value, slope and curvature at both ends.
+/// Returns whether f > 0 is certain on (a, a + h), from value, slope and curvature at both ends.
 ///
 /// The quintic through these six numbers differs from f by at most M₆ t³ (h − t)³/720
 /// (Hermite's remainder), with M₆ ≤ max(ω, Ω)² M₄. Quintic minus remainder is a polynomial

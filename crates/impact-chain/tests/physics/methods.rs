@@ -2,8 +2,8 @@
 
 use crate::{drawn, given, run};
 use impact_chain::methods::{
-    Advancement, Certified, Cost, Method, MoreauJean, Penalty, RungeKutta, Sampled, Task, Verlet,
-    VerletAbreast, Window,
+    Advancement, Certified, Cost, CountedSteps, HitGaps, Method, MoreauJean, Penalty, RungeKutta,
+    Sampled, Task, Verlet, VerletAbreast,
 };
 use impact_chain::{
     Boundary, Chain, Engine, Error, Impact, Initial, NormalPairs, Scenario, Seed, State,
@@ -371,10 +371,10 @@ fn chains_abreast_do_not_touch() {
         together[chain].push(impact);
         together[chain].len() < 200 - 4 * chain
     };
-    method.run_all(&chains, 30.0, None, &mut receive).unwrap();
-    let counts = [false, true].map(|ends_with_one| {
-        let window = Some(Window { after: 10.0, ends_with_one });
-        method.run_all(&chains, 30.0, window, &mut |_, _| false).unwrap().1
+    method.run_all(&chains, 30.0, &mut receive).unwrap();
+    let counts = [HitGaps::All, HitGaps::One].map(|until| {
+        let steps = CountedSteps { from: 10.0, until };
+        method.count_gaps(&chains, 30.0, steps).unwrap().1
     });
     for (chain, (scenario, together)) in chains.iter().zip(&together).enumerate() {
         let alone = impacts(&method, scenario, 30.0);
@@ -385,5 +385,5 @@ fn chains_abreast_do_not_touch() {
     }
     assert!(together.iter().flatten().count() > 1000 && together[4].is_empty());
     let other = [chains[0].clone(), Scenario { restitution: 0.5, ..chains[1].clone() }];
-    assert!(method.run_all(&other, 30.0, None, &mut |_, _| true).is_err());
+    assert!(method.run_all(&other, 30.0, &mut |_, _| true).is_err());
 }

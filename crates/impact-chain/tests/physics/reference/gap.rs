@@ -66,7 +66,7 @@ impl Gap {
         self.bounds()[1]
     }
 
-    /// Whether R1 + R2 < d by a clear margin, so that the gap never closes.
+    /// Returns whether R1 + R2 < d by a clear margin, so that the gap never closes.
     pub fn never_closes(&self) -> bool {
         self.bounds()[0] * (1.0 + 1e-12) < self.spacing.hi
     }
