@@ -25,7 +25,7 @@ pub const fn ensembles(
     Experiment { name, own, reads: &[], parameters, how: Cut(title, CUTTING), tables }
 }
 
-pub const CUTTING: Cutting<Vec<Ensemble>, Counts, Vec<Counted>> = Cutting { rows, part, join };
+pub const CUTTING: Cutting<Vec<Ensemble>, Counts, Vec<Counted>> = Cutting { rows, run_unit, join };
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Counted {
@@ -74,14 +74,14 @@ fn cases(ensembles: &[Ensemble]) -> impl Iterator<Item = (&Ensemble, f64)> {
 pub fn rows(ensembles: &Vec<Ensemble>) -> Vec<UnitRow> {
     let row = |(one, sigma): (&Ensemble, f64)| UnitRow {
         realisations: one.realisations_at(sigma),
-        weight: one.work(sigma),
-        together: Abreast::batch_size(&one.chain),
+        work_of_one: one.work(sigma),
+        group_size: Abreast::batch_size(&one.chain),
     };
     cases(ensembles).map(row).collect()
 }
 
 /// Counts the impacts of one unit of work.
-pub fn part(
+pub fn run_unit(
     ensembles: &Vec<Ensemble>,
     unit: &Unit,
     stage: &Stage,
@@ -95,8 +95,8 @@ pub fn part(
         progress.check()?;
         counts.map_err(|source| Error::failed("an ensemble", source))
     };
-    let together = Abreast::batch_size(&one.chain);
-    Ok(unit.in_groups(together, stage, count)?.into_iter().flatten().collect())
+    let group_size = Abreast::batch_size(&one.chain);
+    Ok(unit.run_in_groups(group_size, stage, count)?.into_iter().flatten().collect())
 }
 
 /// Lists each ensemble with its counts at each σ.

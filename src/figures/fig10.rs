@@ -26,13 +26,14 @@ pub fn draw() -> Result<Figure, Error> {
             _ => format!("*p* = {}", short(at, 4)),
         };
         left.heading(letter, &p)?;
-        sign(&left.with_suffix(&format!("{letter}-f")), at)?;
+        left.set_suffix(&format!("{letter}-f"));
+        sign(&left, at)?;
         let mut columns = simple(at);
         columns.truncate(shown as usize);
         let room = if i == 0 { 1.0 } else { 1.02 };
         let y = Axis::up_to(room * largest(&columns), "Φ_{*N*,*p*}(*k*) / Γ_{*N*,*p*}");
         let right = sheet.panel(Frame::new(5250, edge, 8250, edge + 1700), k(), y)?;
-        let right = right.with_suffix(&format!("{letter}-phi"));
+        right.set_suffix(&format!("{letter}-phi"));
         // At the jump two columns are the highest.
         let (jump, after) = steps()[1];
         let highest = if at == jump { vec![1, after] } else { vec![k_star(at)] };

@@ -1,7 +1,7 @@
 //! Counts chains from rest and from above; the latter run well beyond the rise first, then all
 //! forces are lowered by one factor. Chain i has the same forces on both branches and at every σ.
 
-use crate::experiments::ensembles::{joined, part, rows};
+use crate::experiments::ensembles::{joined, rows, run_unit};
 use crate::experiments::prelude::*;
 use crate::params::Ensemble;
 use impact_chain::Counts;
@@ -15,7 +15,7 @@ pub struct Chains {
     pub counts: Vec<Vec<Vec<Option<u32>>>>,
 }
 
-pub const CUTTING: Cutting<Vec<Ensemble>, Counts, Vec<Chains>> = Cutting { rows, part, join };
+pub const CUTTING: Cutting<Vec<Ensemble>, Counts, Vec<Chains>> = Cutting { rows, run_unit, join };
 
 fn join(
     ensembles: &Vec<Ensemble>,

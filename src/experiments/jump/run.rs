@@ -1,6 +1,6 @@
 //! Counts independent chains at each σ, and finds the jump of the mode in each window.
 
-use crate::experiments::ensembles::{joined, part, rows};
+use crate::experiments::ensembles::{joined, rows, run_unit};
 use crate::experiments::prelude::*;
 use crate::params::{Boundary, Ensemble, Protocol};
 use impact_chain::Counts;
@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 type Counted = (Ensemble, Vec<Counts>);
 
-pub const CUTTING: Cutting<Vec<Ensemble>, Counts, Jumps> = Cutting { rows, part, join };
+pub const CUTTING: Cutting<Vec<Ensemble>, Counts, Jumps> = Cutting { rows, run_unit, join };
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Jumps {
