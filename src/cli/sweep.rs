@@ -209,7 +209,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
 fn rows(ensemble: Ensemble, progress: &Progress) -> Result<Vec<Vec<String>>, Failure> {
     let cutting: Cutting<Vec<Ensemble>, Counts, Vec<Counts>> = Cutting {
         rows: CUTTING.rows,
-        part: CUTTING.part,
+        run_unit: CUTTING.run_unit,
         join: |_, parts, _| {
             Ok(parts.into_iter().map(|parts| parts.into_iter().collect()).collect())
         },

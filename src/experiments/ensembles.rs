@@ -26,7 +26,7 @@ pub const fn ensembles(
 }
 
 pub const CUTTING: Cutting<Vec<Ensemble>, Counts, Vec<Counted>> =
-    Cutting { rows: unit_rows, part, join };
+    Cutting { rows: unit_rows, run_unit, join };
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Counted {
@@ -75,14 +75,14 @@ fn cases(ensembles: &[Ensemble]) -> impl Iterator<Item = (&Ensemble, f64)> {
 pub fn unit_rows(ensembles: &Vec<Ensemble>) -> Vec<UnitRow> {
     let row = |(one, sigma): (&Ensemble, f64)| UnitRow {
         realisations: one.realisations_at(sigma),
-        weight: one.work(sigma),
-        together: Abreast::batch_size(&one.chain),
+        work_of_one: one.work(sigma),
+        group_size: Abreast::batch_size(&one.chain),
     };
     cases(ensembles).map(row).collect()
 }
 
 /// Counts the impacts of one unit of work.
-pub fn part(
+pub fn run_unit(
     ensembles: &Vec<Ensemble>,
     unit: &Unit,
     stage: &Stage,
@@ -96,8 +96,8 @@ pub fn part(
         progress.check()?;
         counts.map_err(|source| Error::failed("an ensemble", source))
     };
-    let together = Abreast::batch_size(&one.chain);
-    Ok(unit.in_groups(together, stage, count)?.into_iter().flatten().collect())
+    let group_size = Abreast::batch_size(&one.chain);
+    Ok(unit.run_in_groups(group_size, stage, count)?.into_iter().flatten().collect())
 }
 
 /// An ensemble with its counts at each σ.

@@ -12,7 +12,7 @@ pub const HORIZON: Experiment<Runs, Horizon> = Experiment {
     own: &["src/experiments/horizon.rs"],
     reads: &[],
     parameters: Runs::horizon,
-    how: Whole(run, |parameters| parameters.realisations as u64 * SECOND / 300),
+    how: Whole(run, |parameters| parameters.realisations as u64 * WORK_PER_SECOND / 300),
     tables,
 };
 
@@ -52,7 +52,7 @@ pub fn tables(horizon: &Horizon) -> Vec<Table> {
     let (times, before): (Vec<f64>, Vec<f64>) = orders.map(|(t, n)| (t, n as f64)).unzip();
     let least = times.iter().copied().fold(f64::INFINITY, f64::min);
     let table = Table::builder("horizon.twins", &[horizon], |horizon| horizon.twins.len())
-        .computed_by(origin(run))
+        .table_computed_by(origin(run))
         .count("pairs", "pairs of twins", |horizon| horizon.twins.len() as u64)
         .chosen("sigma", SIGMA, "", |horizon| Some(horizon.parameters.sigma))
         .estimate("order", TIME, "time of the first impact of another gap", |_| average(&times))

@@ -21,10 +21,10 @@ fn rest(ensembles: &[Counted]) -> Table {
     let rows: Vec<_> = from_rest(ensembles).collect();
     const WIDTH: &str = "from a quarter to three quarters of all gaps";
     Table::builder("lengths.rest", &rows, |row| row.0.ensemble.realisations)
+        .table_computed_by(origin(Curve::new))
         .key("masses", "1", |row| row.0.ensemble.chain.masses as f64)
         .key("transient", TIME, |row| row.1.protocol.transient)
         .key("window", TIME, |row| row.1.protocol.window)
-        .computed_by(origin(Curve::new))
         .estimate("half_height", SIGMA, HALF_HEIGHT, |row| row.1.rise.half_height_all)
         .estimate("width", SIGMA, WIDTH, |row| row.1.rise.quarters)
         .done()
@@ -34,8 +34,8 @@ fn random(ensembles: &[Counted]) -> Table {
     let random = find_ensemble(ensembles, "random");
     let curves = random.map_or(&[][..], |one| &one.curves);
     Table::builder("lengths.random", curves, |_| random.map_or(0, |one| one.ensemble.realisations))
+        .table_computed_by(origin(Curve::new))
         .key("transient", TIME, |curve| curve.protocol.transient)
-        .computed_by(origin(Curve::new))
         .estimate("half_height", SIGMA, HALF_HEIGHT, |curve| curve.rise.half_height_all)
         .done()
 }

@@ -200,19 +200,17 @@ pub fn tables(measured: &Measured) -> Vec<Table> {
         parts.into_iter().filter_map(|(part, subject)| Some((part, session(subject)?))).collect();
     let machine = Table::builder("measured.machine", &sessions, |_| 1)
         .text_key("of", |(part, _)| (*part).into())
-        .computed_by(origin(tables))
         .words("date", "when", |(_, on)| on.date.clone())
         .words("processor", "on what", |(_, on)| on.machine.processor.replace("(R)", ""))
         .words("os", "under what", |(_, on)| on.machine.os.replace('_', "-"))
-        .measured();
+        .all_measured();
     let n = 100;
     let single = measured.rows_about(Subject::Engine).filter(|row| row.n == n && row.chains == 1);
     let engine = single.filter_map(|row| row.microseconds_per_impact).last();
     let meaning = format!("time of an impact in the engine, one chain of {n} masses");
     let impact = Table::builder("measured.impact", &[()], |()| 1)
-        .computed_by(origin(tables))
         .real("engine", "us", 2, &meaning, |()| engine)
-        .measured();
+        .all_measured();
     let single = measured.rows_about(Subject::Engine).chain(measured.rows_about(Subject::Peer));
     let single: Vec<_> =
         single.filter(|row| row.chains == 1 && row.horizon_time.is_some()).collect();
@@ -221,9 +219,8 @@ pub fn tables(measured: &Measured) -> Vec<Table> {
     let chain = Table::builder("measured.chain", &finest, |_| 1)
         .text_key("program", |row| row.name.split(' ').next().unwrap_or_default().into())
         .key("n", "1", |row| row.n as f64)
-        .computed_by(origin(tables))
         .real("horizon", TIME, 4, HORIZON, |row| row.horizon_time)
-        .measured();
+        .all_measured();
     let rows: Vec<&Measurement> = measured.rows_about(Subject::Method).collect();
     let methods = Table::builder("measured.methods", &rows, |row| row.chains as usize)
         .text_key("setting", |row| match row.value {
@@ -231,9 +228,8 @@ pub fn tables(measured: &Measured) -> Vec<Table> {
             None => row.name.clone(),
         })
         .key("sigma", SIGMA, |row| row.sigma)
-        .computed_by(origin(tables))
         .real("thousand", "s", 2, THOUSAND, |row| measured.thousand(row))
         .real("over_engine", "1", 2, "time over the engine's", |row| row.over_engine())
-        .measured();
+        .all_measured();
     vec![machine.done(), impact.done(), chain.done(), methods.done()]
 }

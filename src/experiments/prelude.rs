@@ -8,7 +8,7 @@ pub use impact_chain::{Engine, Impact, Scenario};
 pub use impact_numerics::estimates::{average, difference, share, with_error};
 pub use impact_numerics::random::{NormalPairs, Seed};
 pub use impact_numerics::statistics::Estimate;
-pub use literate::experiments::cutting::SECOND;
+pub use literate::experiments::cutting::WORK_PER_SECOND;
 pub use literate::experiments::experiment::How::{Read, Whole};
 pub use literate::experiments::{Error, Experiment, Progress, Results, Session};
 pub use literate::table::Table;

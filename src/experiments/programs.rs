@@ -91,13 +91,13 @@ fn tables(programs: &Vec<Program>) -> Vec<Table> {
     const WARNED: &str = "cases that were refused or had a message";
     const LATE: &str = "cases in which it passed a bound on work or time";
     let table = Table::builder("programs.all", &rows, |_| 1)
+        .table_computed_by(origin(complete))
         .text_key("script", |(program, ..)| program.script.clone())
         .key("setting", "1", |(_, i, _)| *i as f64)
         .words("name", "program", |(.., run)| run.name.clone())
         .words("version", "its version", |(.., run)| run.version.clone())
         .words("settings", "its settings", |(.., run)| run.settings.clone())
         .words("date", "when it was run", |(program, ..)| program.date.clone())
-        .computed_by(origin(complete))
         .count("cases", "cases of all scenes", |(.., run)| total(Trial::len, run) as u64)
         .count("right", "cases with the expected outcome", |(.., run)| total(right, run) as u64)
         .count("scenes", "all scenes", |(.., run)| run.outcomes.len() as u64)
@@ -109,17 +109,17 @@ fn tables(programs: &Vec<Program>) -> Vec<Table> {
         .real("seconds", "s", 2, "processor time of all cases", |(.., run)| {
             (!run.seconds.is_empty()).then(|| run.seconds.values().flatten().sum::<f64>())
         })
-        .measured();
+        .all_measured();
     let scenes = scenes();
     let all_right = |scene: &Scene| {
         rows.iter().filter(|(.., run)| right(run.trial(scene)) == scene.cases.len()).count() as u64
     };
     let by_scene = Table::builder("programs.scenes", &scenes, |scene| scene.cases.len())
+        .table_computed_by(origin(complete))
         .text_key("scene", |scene| scene.id.clone())
-        .computed_by(origin(complete))
         .count("cases", "its cases", |scene| scene.cases.len() as u64)
         .count("settings", "programs and settings", |_| rows.len() as u64)
         .count("right", "of them, right in all cases", all_right)
-        .measured();
+        .all_measured();
     vec![table.done(), by_scene.done()]
 }

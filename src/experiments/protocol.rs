@@ -18,9 +18,9 @@ pub fn tables(ensembles: &Vec<Counted>) -> Vec<Table> {
         .count("sigmas", "values of σ", |map| map.ensemble.sigmas.len() as u64)
         .count("combinations", "transients times windows", |map| map.curves.len() as u64)
         .count("as_printed", "half heights that round to the printed one", |_| printed as u64)
-        .computed_by(origin(Curve::new))
         .estimate("largest", SIGMA, "largest half height", |_| halves.last().copied())
         .estimate("least", SIGMA, "least half height", |_| halves.first().copied())
+        .computed_by(origin(Curve::new), &["largest", "least"])
         .done();
     vec![cells(map), summary]
 }
@@ -46,9 +46,9 @@ pub fn range(places: impl Iterator<Item = Option<Estimate>>) -> Option<Estimate>
 
 fn cells(map: &Counted) -> Table {
     Table::builder("protocol.cells", &map.curves, |_| map.ensemble.realisations)
+        .table_computed_by(origin(Curve::new))
         .key("transient", TIME, |cell| cell.protocol.transient)
         .key("window", TIME, |cell| cell.protocol.window)
-        .computed_by(origin(Curve::new))
         .estimate("half_height", SIGMA, OF_ACTIVE, |cell| cell.rise.half_height)
         .estimate("half_height_all", SIGMA, HALF_HEIGHT, |cell| cell.rise.half_height_all)
         .estimate("kept_half", SIGMA, HALF_OF_CHAINS, |cell| cell.rise.kept_half)

@@ -10,7 +10,7 @@ pub const REPLAY: Experiment<ReplayRuns, Replays> = Experiment {
     own: &["src/experiments/replay.rs"],
     reads: &[],
     parameters: runs,
-    how: Whole(run, |_| SECOND / 10),
+    how: Whole(run, |_| WORK_PER_SECOND / 10),
     tables,
 };
 
@@ -140,8 +140,8 @@ fn replay(request: &Request) -> Result<ReplayResult, impact_chain::Error> {
 pub fn tables(replays: &Replays) -> Vec<Table> {
     let rows: Vec<_> = replays.parameters.iter().zip(&replays.results).collect();
     let runs = Table::builder("replay.runs", &rows, |_| 1)
+        .table_computed_by(origin(run))
         .text_key("run", |((name, _), _)| name.clone())
-        .computed_by(origin(run))
         .count("masses", "masses", |((_, request), _)| request.chain.masses as u64)
         .chosen("until", TIME, "length", |((_, request), _)| {
             Some(request.transient + request.window)
@@ -151,9 +151,10 @@ pub fn tables(replays: &Replays) -> Vec<Table> {
         .count("contact_phases", "contact phases", |(_, result)| result.contact_phases)
         .count("simultaneous", "ties", |(_, result)| result.simultaneous)
         .words("sha256", "of all impacts: time, gap, speed", |(_, result)| result.digest.clone())
+        .computed_by(origin(run), &["sha256"])
         .done();
     let sums = Table::builder("replay.all", &[replays], |replays| replays.results.len())
-        .computed_by(origin(run))
+        .table_computed_by(origin(run))
         .count("runs", "runs", |replays| replays.results.len() as u64)
         .count("impacts", "impacts of all", |replays| {
             replays.results.iter().map(|result| result.impacts).sum()

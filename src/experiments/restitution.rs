@@ -9,8 +9,8 @@ pub const RESTITUTION: Ensembles =
 
 pub fn tables(ensembles: &Vec<Counted>) -> Vec<Table> {
     let table = Table::builder("restitution.curves", ensembles, |one| one.ensemble.realisations)
+        .table_computed_by(origin(Curve::new))
         .key("r", "1", |one| one.ensemble.chain.restitution)
-        .computed_by(origin(Curve::new))
         .estimate("half_height", SIGMA, HALF_HEIGHT, half_height_all);
     vec![table.done()]
 }

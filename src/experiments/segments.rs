@@ -128,10 +128,10 @@ pub fn tables(segments: &Segments) -> Vec<Table> {
     let [first, second] = &segments.periodic;
     let figures = [(5.0, &segments.fig05), (6.0, &segments.fig06)];
     let table = Table::builder("segments.circuits", &figures, |_| 1)
+        .table_computed_by(origin(Segment::circuit))
         .key("figure", "1", |(figure, _)| *figure)
-        .computed_by(origin(Segment::masses_hit))
         .count("masses", "that take part", |(_, one)| one.masses_hit() as u64)
-        .computed_by(origin(Segment::circuit))
+        .computed_by(origin(Segment::masses_hit), &["masses"])
         .count("length", "impacts", |(_, one)| one.circuit().len() as u64)
         .count("distinct", "different impacts", |(_, one)| one.gaps().len() as u64)
         .count("repeated", "of them repeated", |(_, one)| one.repeats().len() as u64)
@@ -139,10 +139,10 @@ pub fn tables(segments: &Segments) -> Vec<Table> {
     let orbits = [(5.0, first), (6.0, second)];
     let orbits = Table::builder("segments.orbits", &orbits, |_| 1)
         .key("figure", "1", |(figure, _)| *figure)
-        .computed_by(origin(record))
         .real("period", "1/omega", 4, "of the orbit", |(_, one)| 0.5 * (one.until - one.from))
-        .computed_by(origin(Segment::apart))
+        .computed_by(origin(record), &["period"])
         .real("apart", "1", 1, "largest distance of two periods in d and 1/ω", |row| row.1.apart())
+        .computed_by(origin(Segment::apart), &["apart"])
         .done();
     const INSTANTS: &str = "different times at which it has impacts";
     let exceptions = ["no impact", "impacts at once"].into_iter().zip(&segments.no_circuit);
@@ -150,12 +150,12 @@ pub fn tables(segments: &Segments) -> Vec<Table> {
         exceptions.map(|(name, two)| (name, two, two.first_period())).collect();
     let exceptions = Table::builder("segments.no_circuit", &exceptions, |_| 1)
         .text_key("orbit", |(name, ..)| name.to_string())
-        .computed_by(origin(record))
         .count("impacts", "in a period", |(_, _, one)| one.impacts.len() as u64)
-        .computed_by(origin(Segment::instants))
+        .computed_by(origin(record), &["impacts"])
         .count("instants", INSTANTS, |(_, _, one)| one.instants() as u64)
-        .computed_by(origin(Segment::apart))
+        .computed_by(origin(Segment::instants), &["instants"])
         .real("apart", "1", 1, "largest distance of two periods in d and 1/ω", |row| row.1.apart())
+        .computed_by(origin(Segment::apart), &["apart"])
         .done();
     vec![table, orbits, exceptions]
 }

@@ -8,7 +8,7 @@ pub const SPACE_TIME: Experiment<Runs, SpaceTime> = Experiment {
     own: &["src/experiments/spacetime.rs"],
     reads: &[],
     parameters: Runs::spacetime,
-    how: Whole(run, |parameters| parameters.until as u64 * SECOND / 100_000),
+    how: Whole(run, |parameters| parameters.until as u64 * WORK_PER_SECOND / 100_000),
     tables,
 };
 
@@ -85,11 +85,11 @@ pub fn tables(run: &SpaceTime) -> Vec<Table> {
     let table = Table::builder("spacetime.run", &[run], |_| 1)
         .chosen("sigma", SIGMA, "standard deviation σ", |run| Some(run.parameters.sigma))
         .chosen("until", TIME, "length of the run", |run| Some(run.parameters.until))
-        .computed_by(origin(SpaceTime::starts))
         .count("starts", "gaps hit when neither neighbour was", |run| run.starts().len() as u64)
-        .computed_by(origin(SpaceTime::advances))
+        .computed_by(origin(SpaceTime::starts), &["starts"])
         .real("advance_median", TIME, 3, "median step of a front", |_| median.copied())
         .real("advance_longest", TIME, 3, "longest step of a front", |_| advances.last().copied())
+        .computed_by(origin(SpaceTime::advances), &["advance_median", "advance_longest"])
         .done();
     vec![table]
 }

@@ -14,10 +14,10 @@ pub fn tables(variants: &Vec<Counted>) -> Vec<Table> {
         .text_key("chain", |one| one.ensemble.name.clone())
         .count("realisations", "chains at each σ", |one| one.ensemble.realisations as u64)
         .chosen("forcing_frequency", "omega", "", |one| Some(one.ensemble.chain.forcing_frequency))
-        .computed_by(origin(Curve::new))
         .estimate("half_height", SIGMA, HALF_HEIGHT, half_height_all)
         .estimate("half_height_of_active", SIGMA, OF_ACTIVE, half_height)
         .estimate("difference", SIGMA, "half height less that from rest", less)
+        .computed_by(origin(Curve::new), &["half_height", "half_height_of_active", "difference"])
         .done();
     vec![table]
 }
@@ -35,7 +35,7 @@ pub fn against_theory(results: &Results, computed: &[Table]) -> Option<Vec<Table
     const SHARE: &str = "of the distance from rest to the theory, with random free parts";
     let chains = find_ensemble(starts, "rest")?.ensemble.realisations;
     let table = Table::builder("starts.against_theory", &[()], |()| chains)
-        .computed_by(origin(share_of_start))
+        .table_computed_by(origin(share_of_start))
         .estimate("share", "1", SHARE, |()| share(|one| one.first_curve().rise.half_height))
         .estimate("share_of_all", "1", "the same by the mean of all", |()| share(half_height_all));
     Some(vec![table.done()])

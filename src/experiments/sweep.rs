@@ -32,8 +32,8 @@ fn tables(ensembles: &Vec<Counted>) -> Vec<Table> {
 fn of_second_seed(ensembles: &Vec<Counted>) -> Vec<Table> {
     let table = Table::builder("second_seed.rise", ensembles, |sweep| sweep.ensemble.realisations)
         .count("seed", "master seed", |sweep| sweep.ensemble.seed)
-        .computed_by(origin(Curve::new))
-        .estimate("half_height", SIGMA, OF_ACTIVE, |sweep| sweep.first_curve().rise.half_height);
+        .estimate("half_height", SIGMA, OF_ACTIVE, |sweep| sweep.first_curve().rise.half_height)
+        .computed_by(origin(Curve::new), &["half_height"]);
     vec![table.done()]
 }
 
@@ -66,11 +66,11 @@ fn rows(sweep: &Counted) -> Table {
     const ACTIVE: &str = "share of the realisations with an impact in the window";
     let active_share = |row: &RisePoint| share(row.active as u64, row.ran as u64);
     Table::builder("sweep.rows", &sweep.first_curve().rows, |row| row.ran)
+        .table_computed_by(origin(RisePoint::new))
         .key("sigma", SIGMA, |row| row.sigma)
-        .computed_by(origin(RisePoint::new))
         .estimate("kept", "1", ACTIVE, active_share)
         .estimate("mean_all", "1", "gaps with an impact, mean of all", |r| r.mean_all?.estimate())
-        .over(|row| row.active)
+        .next_columns_over(|row| row.active)
         .estimate("mean", "1", "gaps hit, mean of those with any", |row| row.mean?.estimate())
         .estimate("impacts", "1", "impacts, mean of those with any", |row| row.impacts?.estimate())
         .estimate("masses", "1", "masses hit, mean of those with any", |row| row.masses?.estimate())
@@ -80,7 +80,7 @@ fn rows(sweep: &Counted) -> Table {
 fn rise_table(sweep: &Counted) -> Table {
     let interval = sweep.first_curve().rise.half_height.map(|half| half.interval);
     Table::builder("sweep.rise", &[&sweep.first_curve().rise], |_| sweep.ensemble.realisations)
-        .computed_by(origin(Curve::new))
+        .table_computed_by(origin(Curve::new))
         .estimate("half_height", SIGMA, OF_ACTIVE, |rise| rise.half_height)
         .real("half_height_from", SIGMA, 4, "lower end of its interval", |_| Some(interval?[0]))
         .real("half_height_to", SIGMA, 4, "upper end of its interval", |_| Some(interval?[1]))
@@ -116,12 +116,12 @@ fn rare(sweep: &Counted, total: &Total) -> Table {
         [&total.near[..], &total.slow].map(|decades| decades.last().copied().unwrap_or(0));
     let [near_expected, slow_expected] = expected(total);
     Table::builder("sweep.rare", &[()], |()| 0)
-        .computed_by(origin(expected))
         .count("near_simultaneous", "impacts next to another within the limit", |()| near)
         .real("near_expected", "1", 2, "the law's", |()| near_expected)
         .real("near_limit", TIME, 1, "", |()| NEAR_SIMULTANEOUS)
         .count("slow", "impacts slower than the limit", |()| slow)
         .real("slow_expected", "1", 1, "the law's", |()| slow_expected)
+        .computed_by(origin(expected), &["near_expected", "slow_expected"])
         .real("slow_limit", "d omega", 1, "", |()| SLOW)
         .chosen("contact_sigma", SIGMA, "above the rise", |()| Some(ABOVE))
         .count("contact_phases_below", "contact phases up to that σ", |()| contact_phases_below)

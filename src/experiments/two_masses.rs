@@ -13,7 +13,7 @@ pub const TWO_MASSES: Experiment<TwoMassesParams, TwoMasses> = Experiment {
     own: &["src/experiments/two_masses.rs"],
     reads: &[],
     parameters: TwoMassesParams::new,
-    how: Whole(run, |parameters| parameters.directions.realisations as u64 * SECOND / 800),
+    how: Whole(run, |parameters| parameters.directions.realisations as u64 * WORK_PER_SECOND / 800),
     tables,
 };
 
@@ -56,15 +56,15 @@ pub fn run(parameters: &TwoMassesParams, progress: &Progress) -> Result<TwoMasse
 
 pub fn tables(two_masses: &TwoMasses) -> Vec<Table> {
     let bound = Table::builder("two_masses.bound", &[&two_masses.parameters.directions], |_| 0)
-        .computed_by(origin(safe_force))
         .real("force", SIGMA, 4, "below this two masses never hit", |runs| safe_force(&runs.chain))
+        .computed_by(origin(safe_force), &["force"])
         .count("directions", "random directions of the forcing", |runs| runs.realisations as u64)
         .done();
     const GREATEST: &str = "largest of the least forces with an impact, over bounds";
     let excess: Vec<_> = two_masses.parameters.times.iter().zip(&two_masses.excess).collect();
     let excess = Table::builder("two_masses.excess", &excess, |_| 0)
+        .table_computed_by(origin(run))
         .key("time", TIME, |(time, _)| time.floor())
-        .computed_by(origin(run))
         .real("greatest", "1", 6, GREATEST, |row| row.1[1])
         .done();
     vec![bound, excess]

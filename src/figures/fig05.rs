@@ -30,7 +30,8 @@ pub fn draw_circuit(
     let walls = (segment.masses + 1) as f64;
     let x = Axis::linear(0.0, duration, 1.0, 5, "time *t* (1/*ω*)");
     let y = Axis::linear(0.0, walls, 1.0, 1, "position *x*_{*j*} / *d*");
-    let panel = sheet.panel(Frame::new(1200, 4900, 8000, 8500), x, y)?.with_suffix("b");
+    let panel = sheet.panel(Frame::new(1200, 4900, 8000, 8500), x, y)?;
+    panel.set_suffix("b");
     sheet.area.draw_text("(b)", &style, (260, 4690))?;
     motion(&panel, segment, order.len())?;
     let names: Vec<&str> = order.iter().map(|&gap| NAMES[gap]).collect();

@@ -15,7 +15,7 @@ pub fn draw() -> Result<Figure, Error> {
     let x = Axis::linear(SHOWN - 0.5, N as f64 + 0.5, 2.0, 2, "length *k*");
     let y = Axis::up_to(top, "*ϕ*_{*N*}(*k*) / *ϕ*_{*N*}^{tot}");
     let columns = sheet.lettered("(a)", Frame::new(1150, 480, 4050, 3380), x, y)?;
-    let columns = columns.with_suffix("");
+    columns.set_suffix("");
     columns.columns("share of circuits", &share, Stroke::solid(GREEN, THIN))?;
     let lowest = (logs.iter().copied().fold(0.0, f64::min) / 40.0).floor() as i32 * 40;
     let x = Axis::linear(0.0, N as f64 + 1.0, 20.0, 2, "length *k*");

@@ -38,13 +38,14 @@ pub fn draw() -> Result<Figure, Error> {
             Stage::Jump => format!("*p* = *p*_{{jump}} = {}", short(p, 4)),
         };
         left.heading(letter, &heading)?;
-        draw_f(&left.with_suffix(&format!("{letter}-f")), p)?;
+        left.set_suffix(&format!("{letter}-f"));
+        draw_f(&left, p)?;
         let mut columns = simple(p);
         columns.truncate(last_k as usize);
         let room = if stage == Stage::Zero { 1.0 } else { 1.02 };
         let y = Axis::up_to(room * largest(&columns), "Φ_{*N*,*p*}(*k*) / Γ_{*N*,*p*}");
         let right = sheet.panel(Frame::new(5250, edge, 8250, edge + 1700), k(), y)?;
-        let right = right.with_suffix(&format!("{letter}-phi"));
+        right.set_suffix(&format!("{letter}-phi"));
         // At the jump two columns are the highest.
         let highest = if stage == Stage::Jump { vec![1, k_after_jump] } else { vec![k_star(p)] };
         draw_distribution(&right, &highest, &columns)?;

@@ -18,7 +18,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let edge = 480 + 3100 * i as i32;
         let (frame, p) = (Frame::new(1200, edge, 8150, edge + 2450), short(at, 3));
         let head = format!("{} *p* = {p}", LETTERS[i]);
-        let panel = sheet.lettered(&head, frame, x, y)?.with_suffix(LETTERS[i]);
+        let panel = sheet.lettered(&head, frame, x, y)?;
+        panel.set_suffix(LETTERS[i]);
         for (name, values, side, stroke) in [
             ("simple circuits", simple(at), -1, Look::THEORY.line),
             ("higher orders", five(at), 1, Look::HIGHER.line),

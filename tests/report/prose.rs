@@ -59,7 +59,7 @@ fn every_claim_is_spoken_of_once_in_the_text() {
 /// The one exception is a definition: the normalisation of Eq. (9) is used as it stands.
 #[test]
 fn no_verdict_survives_another_first_digit_in_the_printed_number() {
-    let blind = claims::blind_to_their_number(&QUICK.published, &claims::rules(), &QUICK.results);
+    let blind = claims::ids_blind_to_number(&QUICK.published, &claims::rules(), &QUICK.results);
     assert_eq!(blind, ["sec6_normalised"]);
 }
 
@@ -67,7 +67,7 @@ fn no_verdict_survives_another_first_digit_in_the_printed_number() {
 #[test]
 fn every_verdict_moves_with_the_evidence() {
     let ids =
-        claims::never_moved(&QUICK.published, &claims::rules(), &QUICK.results, true).unwrap();
+        claims::ids_never_moved(&QUICK.published, &claims::rules(), &QUICK.results, true).unwrap();
     let listed = include_str!("never_moved.txt").lines();
     let in_all = listed.filter(|line| !line.contains("in full samples"));
     let listed: Vec<&str> = in_all.map(|line| line.split_once(": ").unwrap().0).collect();

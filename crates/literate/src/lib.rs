@@ -70,6 +70,6 @@ pub use build::make_report;
 pub use failure::{Failure, INTERRUPTED};
 pub use impact_numerics::{double_double, estimates, random, statistics};
 pub use literate_sources::{sources, texts};
-pub use paper::{FigureSpec, Lab, Paper, Rows, Values};
+pub use paper::{FigureSpec, Lab, MakeValues, Paper, Rows};
 pub use project::Project;
 pub use source::Sources;

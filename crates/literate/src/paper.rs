@@ -39,7 +39,7 @@ impl FigureSpec {
         let mut names = BTreeSet::new();
         if let Some(file) = figure.data.iter().find(|file| !names.insert(&file.name)) {
             let problem = format!("figure {}: two panels name their data {}", self.name, file.name);
-            return Err(Failure::input(format!("{problem}; give each a letter (`with_suffix`)")));
+            return Err(Failure::input(format!("{problem}; give each a letter (`set_suffix`)")));
         }
         let experiments = self.needs.iter().map(|need| need.name()).collect();
         // The item that draws it has its name.
@@ -58,7 +58,7 @@ impl FigureSpec {
 }
 
 /// Makes values that the prose may use like the cells of tables.
-pub type Values = fn(&Results, &Published) -> Result<Vec<Value>, Failure>;
+pub type MakeValues = fn(&Results, &Published) -> Result<Vec<Value>, Failure>;
 
 /// Makes rows of tables that are neither values nor checks, by the names that the prose uses.
 pub type Rows = fn(&Results, &[Check]) -> Result<BTreeMap<&'static str, Json>, Failure>;
@@ -77,7 +77,7 @@ pub struct Paper {
     pub figures: Vec<FigureSpec>,
     /// How each statement of `published.toml` is judged, and relations between numbers.
     pub rules: Vec<Rule>,
-    pub values: Vec<Values>,
+    pub values: Vec<MakeValues>,
     pub rows: Option<Rows>,
     pub lab: Option<Lab>,
 }

@@ -44,12 +44,6 @@ impl From<Estimate> for Sampled {
     }
 }
 
-impl From<Sampled> for Estimate {
-    fn from(found: Sampled) -> Estimate {
-        found.estimate
-    }
-}
-
 fn with_values(values: usize, estimate: Estimate) -> Sampled {
     Sampled { estimate, sample: Sample::Values(values as u64) }
 }

@@ -1,5 +1,6 @@
 //! Finds an item in the source of a program: its file, and the lines that documents quote.
 
+/// The source of a program, as it was compiled.
 #[derive(Clone, Copy, Debug)]
 pub struct Sources {
     pub name: &'static str,
@@ -13,8 +14,8 @@ pub struct Sources {
 }
 
 impl Sources {
-    /// Returns a path of the compiler as documents show it: without the name of the program.
-    pub(crate) fn short<'a>(&self, path: &'a str) -> &'a str {
+    /// Returns the path of an item, as the compiler writes it, without the name of the program.
+    pub(crate) fn shorten<'a>(&self, path: &'a str) -> &'a str {
         let (first, rest) = path.split_once("::").unwrap_or(("", path));
         if first == self.name.replace('-', "_") { rest } else { path }
     }
@@ -39,7 +40,7 @@ impl Sources {
     }
 
     /// Returns the file of an item and the number of the line that defines it, or no line if the
-    /// item is a whole file.
+    /// item is a whole file; `None` if the program has no such file.
     pub fn place(&self, item: &str) -> Option<(&'static str, Option<usize>)> {
         const KINDS: [&str; 7] = ["fn", "struct", "enum", "trait", "type", "const", "mod"];
         let file = self.file(item)?;
@@ -110,6 +111,6 @@ mod tests {
         }
         assert_eq!(toy().place("toy::flight::Motion::kick"), Some(("src/flight.rs", Some(6))));
         assert_eq!(toy().place("toy::flight::drag"), Some(("src/flight/drag/mod.rs", None)));
-        assert_eq!(toy().short("toy_paper::claims::sec2"), "claims::sec2");
+        assert_eq!(toy().shorten("toy_paper::claims::sec2"), "claims::sec2");
     }
 }

@@ -236,13 +236,7 @@ impl Value {
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Origin(String);
-
-impl Origin {
-    pub fn of(words: &str) -> Origin {
-        Origin(words.into())
-    }
-}
+pub struct Origin(pub(crate) String);
 
 /// Returns the origin of what a function computes. The compiler knows the function, so its path is
 /// never typed: it follows a function that moves, and one that is gone is an error.

@@ -133,7 +133,6 @@ pub fn tables(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
     let summary = Table::builder("answers.all", &[()], |()| cases_at_rest(trials))
         .chosen("share", "1", "share of chains in which an orbit must be right", |()| Some(MOST))
         .chosen("tie", "1", "times that differ by less than this factor tie", |()| Some(TIE))
-        .computed_by(origin(tables))
         .real("cradle", "d", 1, GAP, |()| cradle(trials))
         .words("rest", RESTS, |()| names(programs, &REST))
         .words("grazes", GRAZES, |()| names(programs, &["grazing-hits", "grazing-misses"]))
@@ -167,14 +166,15 @@ fn table<'a>(
     const CHEAPEST: &str = "seconds of one core for a thousand chains";
     const LEAD: &str = "time of the engine or its fastest rival over that of the other";
     Table::builder(name, questions, |[own, _]| own.rival().map_or(0, |answer| answer.chains))
+        .table_computed_by(origin(tables))
         .text_key("id", |[own, _]| own.id.clone())
         .words("question", "what is asked", |[own, _]| own.words.clone())
-        .computed_by(origin(tables))
         .words("take", "the method of the least time", |[own, _]| own.choice())
         .real("lead", "1", 2, LEAD, |[own, _]| own.lead())
         .words("generic", "the same by any processor's vectors", |[_, generic]| generic.choice())
         .real("generic_lead", "1", 2, LEAD, |[_, generic]| generic.lead())
         .words("rival", "the rival of the least time", |[own, _]| name_of(own.rival()))
+        .computed_by(origin(tables), &["take", "generic", "rival"])
         .real("seconds", "s", 2, CHEAPEST, |[own, _]| seconds(own.rival()))
         .estimate("found", unit, "its error, or share of runs that are right", |[own, _]| {
             Some(own.rival()?.result)

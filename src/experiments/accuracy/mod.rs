@@ -20,7 +20,7 @@ pub const RACE: Experiment<RaceParams, race::Race> = Experiment {
     own: &["src/experiments/accuracy/race.rs", METHODS, HORIZON],
     reads: &[],
     parameters: RaceParams::new,
-    how: Whole(race::run, |parameters| parameters.chains as u64 * SECOND / 5),
+    how: Whole(race::run, |parameters| parameters.chains as u64 * WORK_PER_SECOND / 5),
     tables: tables::race,
 };
 
@@ -29,7 +29,7 @@ pub const BIAS: Experiment<BiasParams, bias::Biases> = Experiment {
     own: &["src/experiments/accuracy/bias.rs", METHODS, HORIZON],
     reads: &[],
     parameters: BiasParams::new,
-    how: Whole(bias::run, |parameters| parameters.runs() * SECOND / 200),
+    how: Whole(bias::run, |parameters| parameters.runs() * WORK_PER_SECOND / 200),
     tables: tables::bias,
 };
 
@@ -38,7 +38,7 @@ pub const TRIALS: Experiment<trials::TrialParams, trials::Trials> = Experiment {
     own: &["src/experiments/accuracy/trials.rs", METHODS, HORIZON, "scenes"],
     reads: &[],
     parameters: trials::TrialParams::new,
-    how: Whole(trials::run, |parameters| parameters.cases() as u64 * SECOND / 10),
+    how: Whole(trials::run, |parameters| parameters.cases() as u64 * WORK_PER_SECOND / 10),
     tables: |_| Vec::new(),
 };
 
@@ -47,6 +47,6 @@ pub const SCALE: Experiment<ScaleParams, scale::Scale> = Experiment {
     own: &["src/experiments/accuracy/scale.rs", METHODS, HORIZON],
     reads: &[],
     parameters: ScaleParams::new,
-    how: Whole(scale::run, |_| SECOND / 10),
+    how: Whole(scale::run, |_| WORK_PER_SECOND / 10),
     tables: tables::scale,
 };

@@ -41,9 +41,9 @@ pub fn race(race: &Race) -> Vec<Table> {
 
 fn entries(name: &'static str, entries: &[&Entry]) -> Table {
     Table::builder(name, entries, |entry| entry.runs.len())
+        .table_computed_by(origin(race::run))
         .text_key("method", |entry| entry.setting.method.id().into())
         .chosen("setting", TIME, "step or tolerance", |entry| Some(entry.setting.value))
-        .computed_by(origin(race::run))
         .count("misses", "states from which the next impact is missed", |entry| entry.misses)
         .real("error", TIME, 1, "median error of its time", |entry| Some(entry.errors?[0]))
         .real("units", "1", 2, "largest error over what rounding the gap does", |entry| entry.units)
@@ -58,11 +58,11 @@ fn all(race: &Race) -> Table {
     let folds = pxfm::f_log(DISPLACED / (f64::EPSILON / 2.0));
     let (run, growth) = (&race.parameters.growth, race.growth.growth());
     Table::builder("race.all", &[()], |()| race.growth.twins.len())
+        .table_computed_by(origin(race::run))
         .chosen("masses", "1", "masses", |()| Some(run.chain.masses as f64))
         .chosen("sigma", SIGMA, "standard deviation σ", |()| Some(run.sigma))
         .chosen("until", TIME, "the end of the runs", |()| Some(race.parameters.until))
         .chosen("displaced", TIME, "from here on an impact is another", |()| Some(DISPLACED))
-        .computed_by(origin(race::run))
         .count("chains", "chains", |()| race.parameters.chains as u64)
         .count("states", "from which each method is asked for the next impact", |()| tried)
         .estimate("growth", "omega", "rate λ at which neighbouring motions part", |()| growth)
@@ -142,9 +142,9 @@ pub fn compared(biases: &Biases) -> Vec<Compared> {
 pub fn bias(biases: &Biases) -> Vec<Table> {
     let rows = compared(biases);
     let cells = Table::builder("bias.cells", &rows, |row| row.pairs)
+        .table_computed_by(origin(bias::run))
         .text_key("setting", |row| format!("{}-{}", row.setting.method.id(), row.setting.value))
         .key("sigma", SIGMA, |row| row.sigma)
-        .computed_by(origin(bias::run))
         .estimate("share", "1", "error of the mean over the mean", |row| row.share)
         .done();
     let runs = biases.runs.iter().zip(&biases.again);
@@ -156,8 +156,8 @@ pub fn bias(biases: &Biases) -> Vec<Table> {
     let engine: Vec<_> = engine.collect();
     const CHAOS: &str = "its error that chaos makes of roundings, over it";
     let means = Table::builder("bias.means", &engine, |(_, counts, _)| counts.len())
+        .table_computed_by(origin(bias::run))
         .key("sigma", SIGMA, |row| row.0)
-        .computed_by(origin(bias::run))
         .real("mean", "1", 3, "mean number of impacting gaps, by the engine", |row| mean(&row.1))
         .real("chaos", "1", 1, CHAOS, |row| Some(row.2))
         .done();
@@ -169,11 +169,11 @@ pub fn scale(scale: &Scale) -> Vec<Table> {
     let ends: Vec<_> = methods.map(|rows| (&rows[0], &rows[rows.len() - 1])).collect();
     const WORK: &str = "evaluations per impact";
     let table = Table::builder("scale.ends", &ends, |_| 1)
+        .table_computed_by(origin(scale::run))
         .text_key("method", |(few, _)| few.setting.method.id().into())
         .chosen("setting", TIME, "step or tolerance", |(few, _)| Some(few.setting.value))
         .chosen("small", "1", "fewest masses", |(few, _)| Some(few.masses as f64))
         .chosen("large", "1", "most masses", |(_, many)| Some(many.masses as f64))
-        .computed_by(origin(scale::run))
         .real("work_small", "1", 2, WORK, |(few, _)| few.evaluations_per_impact)
         .real("work_large", "1", 2, WORK, |(_, many)| many.evaluations_per_impact)
         .done();

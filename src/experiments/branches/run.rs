@@ -1,7 +1,7 @@
 //! Counts chains from rest and from above; the latter run well beyond the rise first, then all
 //! forces are lowered by one factor. Chain i has the same forces on both branches and at every σ.
 
-use crate::experiments::ensembles::{EnsembleCounts, join_counts, part, unit_rows};
+use crate::experiments::ensembles::{EnsembleCounts, join_counts, run_unit, unit_rows};
 use crate::experiments::prelude::*;
 use crate::params::Ensemble;
 use impact_chain::Counts;
@@ -16,7 +16,7 @@ pub struct Chains {
 }
 
 pub const CUTTING: Cutting<Vec<Ensemble>, Counts, Vec<Chains>> =
-    Cutting { rows: unit_rows, part, join };
+    Cutting { rows: unit_rows, run_unit, join };
 
 fn join(
     ensembles: &Vec<Ensemble>,

@@ -34,9 +34,9 @@ fn half_heights(lengths: &[&[Pair]]) -> Table {
         );
     }
     Table::builder("branches.half_heights", &rows, |row| row.0.chains())
+        .table_computed_by(origin(Branch::half_height))
         .key("masses", "1", |row| row.0.masses as f64)
         .key("transient", TIME, |row| row.0.transient)
-        .computed_by(origin(Branch::half_height))
         .estimate("from_rest", SIGMA, HALF_HEIGHT, |row| row.0.estimate(FROM_REST))
         .estimate("from_above", SIGMA, HALF_HEIGHT, |row| row.0.estimate(FROM_ABOVE))
         .estimate("rest_until_last", SIGMA, LAST, |row| row.2.estimate_less(row.0, FROM_REST))
@@ -45,16 +45,16 @@ fn half_heights(lengths: &[&[Pair]]) -> Table {
         .chosen("rest_high", SIGMA, HIGH, |row| Some(row.0.rest.neighbours()?[1]))
         .chosen("above_low", SIGMA, LOW, |row| Some(row.0.above.neighbours()?[0]))
         .chosen("above_high", SIGMA, HIGH, |row| Some(row.0.above.neighbours()?[1]))
-        .computed_by(origin(Branch::coarser))
         .estimate("rest_coarser", SIGMA, COARSER, |row| {
             row.0.estimate(|pair, without| pair.rest.coarser(without))
         })
         .estimate("above_coarser", SIGMA, COARSER, |row| {
             row.0.estimate(|pair, without| pair.above.coarser(without))
         })
-        .computed_by(origin(distance))
+        .computed_by(origin(Branch::coarser), &["rest_coarser", "above_coarser"])
         .estimate("distance", SIGMA, DISTANCE, |row| row.0.estimate(distance))
         .estimate("change_of_distance", SIGMA, LATER, |row| row.0.estimate_less(row.1?, distance))
+        .computed_by(origin(distance), &["distance", "change_of_distance"])
         .done()
 }
 
@@ -66,9 +66,9 @@ fn fits(lengths: &[&[Pair]]) -> Table {
     let laws: Vec<(&[Pair], Law)> = laws.collect();
     let estimate = |(pairs, law): &(&[Pair], Law), of| law.estimate(pairs, of);
     Table::builder("branches.fits", &laws, |row| row.0[0].chains())
+        .table_computed_by(origin(Law::fit))
         .key("masses", "1", |row| row.0[0].masses as f64)
         .text_key("law", |row| row.1.name.into())
-        .computed_by(origin(Law::fit))
         .estimate("limit", SIGMA, LIMIT, |row| {
             estimate(row, |fit| fit.limit).filter(|_| row.1.limited)
         })
@@ -87,8 +87,8 @@ fn compared_lengths(lengths: &[&[Pair]]) -> Table {
         rows.extend(short.iter().zip(*long));
     }
     Table::builder("branches.lengths", &rows, |(short, long)| short.chains().min(long.chains()))
+        .table_computed_by(origin(Branch::half_height))
         .key("transient", TIME, |(short, _)| short.transient)
-        .computed_by(origin(Branch::half_height))
         .estimate("from_rest", SIGMA, LESS, |(short, long)| short.estimate_less(long, FROM_REST))
         .estimate("from_above", SIGMA, LESS, |(short, long)| short.estimate_less(long, FROM_ABOVE))
         .estimate("distance", SIGMA, LESS, |(short, long)| short.estimate_less(long, distance))
@@ -115,14 +115,14 @@ fn shares(pairs: &[Pair]) -> Table {
         rows.extend(sigmas.into_iter().map(|sigma| (pair, sigma)));
     }
     Table::builder("branches.shares", &rows, |(pair, _)| pair.chains())
+        .table_computed_by(origin(Branch::share))
         .key("masses", "1", |(pair, _)| pair.masses as f64)
         .key("transient", TIME, |(pair, _)| pair.transient)
         .key("sigma", SIGMA, |(_, sigma)| *sigma)
-        .computed_by(origin(Branch::share))
         .estimate("from_rest", "1", SHARE, |row| share(row.0, |pair| &pair.rest, row.1))
         .estimate("from_above", "1", SHARE, |row| share(row.0, |pair| &pair.above, row.1))
-        .computed_by(origin(excess))
         .estimate("excess", "1", EXCESS, |row| excess(row.0, row.1))
+        .computed_by(origin(excess), &["excess"])
         .done()
 }
 

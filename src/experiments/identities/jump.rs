@@ -1,6 +1,6 @@
 //! Checks the distribution and its jump, Secs. 6 and 7: identities, signs, zeros and slopes.
 
-use crate::experiments::theory::basics::{Cases, cases, known, largest};
+use crate::experiments::theory::basics::{Cases, cases, expect_known, largest};
 use crate::experiments::theory::jump::top;
 use crate::experiments::theory::law::law;
 use crate::params::VERTICES;
@@ -64,7 +64,7 @@ pub(super) fn slopes() -> Cases {
 }
 
 pub(super) fn monotone() -> Cases {
-    let from = known(jump::p_jump(Simple, VERTICES)).bracket[1];
+    let from = expect_known(jump::p_jump(Simple, VERTICES)).bracket[1];
     let p = |i: i32| (from + (1.0 - from) * f64::from(i) / 1000.0).min(1.0);
     let modes: Vec<usize> =
         [1].into_iter().chain((0..=1000).map(|i| simple(p(i)).k_star())).collect();
@@ -107,7 +107,7 @@ pub(super) fn extrema() -> Cases {
 
 /// Returns the relative distance of f at p_crit from −p (k − k_touch)², with a double zero.
 pub(super) fn inflexion() -> f64 {
-    let p = known(jump::p_crit(VERTICES));
+    let p = expect_known(jump::p_crit(VERTICES));
     let off = |k: f64| (f(p, k) + p * (k - top(p)) * (k - top(p))).abs() / size(p, k);
     largest((1..=VERTICES).map(|k| off(k as f64)))
 }
@@ -119,7 +119,7 @@ pub(super) fn through_zero() -> Cases {
 
 /// Checks that Φ(k) > Φ(k + 1) at every p of a grid from above 0 to p_crit, included.
 pub(super) fn falling() -> Cases {
-    let crit = known(jump::p_crit(VERTICES));
+    let crit = expect_known(jump::p_crit(VERTICES));
     let steps = (1..=100).flat_map(|i| (1..VERTICES).map(move |k| (f64::from(i), k as f64)));
     cases(steps.map(|(i, k)| f(crit * i / 100.0, k) < 0.0))
 }

@@ -30,7 +30,6 @@ pub fn tables() -> Vec<Table> {
         ("sec9_eq38_in_range", circuits::eq38(&census, 3)),
     ];
     let cases = Table::builder("theory.cases", &rows, |_| 0)
-        .computed_by(origin(tables))
         .text_key("statement", |(id, _)| (*id).into())
         .count("compared", "cases that were compared", |(_, [compared, _])| *compared)
         .count("failed", "cases that do not agree", |(_, [_, failed])| *failed)
@@ -43,12 +42,11 @@ pub fn tables() -> Vec<Table> {
         ("sec8_densities", relation::distributions()),
     ];
     let differences = Table::builder("theory.differences", &rows, |_| 0)
-        .computed_by(origin(tables))
         .text_key("statement", |(id, _)| (*id).into())
         .real("largest", "1", 1, "largest difference", |(_, largest)| *largest)
         .done();
     let ranges = Table::builder("theory.class_ranges", &circuits::class_ranges(&census), |_| 0)
-        .computed_by(origin(circuits::class_ranges))
+        .table_computed_by(origin(circuits::class_ranges))
         .key("equation", "1", |one| one.equation)
         .count("right_from", "the length from which on it is right", |one| one.right_from as u64)
         .count("compared", "cases from that length on", |one| one.cases[0])

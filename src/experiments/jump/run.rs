@@ -1,6 +1,6 @@
 //! Counts independent chains at each σ, and finds the jump of the mode in each window.
 
-use crate::experiments::ensembles::{EnsembleCounts, join_counts, part, unit_rows};
+use crate::experiments::ensembles::{EnsembleCounts, join_counts, run_unit, unit_rows};
 use crate::experiments::prelude::*;
 use crate::params::{Boundary, Ensemble, Protocol};
 use impact_chain::Counts;
@@ -8,7 +8,8 @@ use impact_chain::mode_jump::{Histogram, ModeJump, Sample, mode_jump};
 use literate::experiments::cutting::Cutting;
 use rayon::prelude::*;
 
-pub const CUTTING: Cutting<Vec<Ensemble>, Counts, Jumps> = Cutting { rows: unit_rows, part, join };
+pub const CUTTING: Cutting<Vec<Ensemble>, Counts, Jumps> =
+    Cutting { rows: unit_rows, run_unit, join };
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Jumps {

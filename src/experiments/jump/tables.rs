@@ -23,10 +23,10 @@ fn run(jumps: &Jumps) -> Table {
         .count("chains", "chains of all σ", |_| first.map_or(0, WindowJump::chains))
         .count("sigmas", "values of σ", |_| first.map_or(0, |one| one.histograms.len() as u64))
         .count("windows", "windows", |jumps| jumps.windows.len() as u64)
-        .computed_by(origin(Passing::is_jump))
         .count("jumps", "windows in which the mode surely jumps to all gaps", |_| count(Some(true)))
         .count("climbs", "windows in which it surely climbs there", |_| count(Some(false)))
         .count("open", "windows in which the sample does not tell", |_| count(None))
+        .computed_by(origin(Passing::is_jump), &["jumps", "climbs", "open"])
         .done()
 }
 
@@ -43,18 +43,18 @@ const SINGLE_JUMPS: &str = "the same where a single gap is overtaken";
 
 fn windows(jumps: &Jumps) -> Table {
     Table::builder("jump.windows", &jumps.windows, |_| 0)
+        .table_computed_by(origin(mode_jump))
         .key("transient", TIME, |window| window.protocol.transient)
         .key("window", TIME, |window| window.protocol.window)
-        .computed_by(origin(mode_jump))
         .estimate("place", SIGMA, PLACE, |window| window.jump.all_gaps.sigma)
         .estimate("below", "1", BELOW, |window| window.jump.all_gaps.peak)
         .estimate("clearance", "1", CLEARANCE, |window| window.jump.all_gaps.clearance)
         .estimate("single_place", SIGMA, SINGLE, |window| window.jump.single_gap.sigma)
         .estimate("single_above", "1", BELOW, |window| window.jump.single_gap.peak)
         .estimate("single_clearance", "1", CLEARANCE, |window| window.jump.single_gap.clearance)
-        .computed_by(origin(Passing::is_jump))
         .chosen("jumps", "1", JUMPS, |window| outcome(&window.jump.all_gaps))
         .chosen("single_jumps", "1", SINGLE_JUMPS, |window| outcome(&window.jump.single_gap))
+        .computed_by(origin(Passing::is_jump), &["jumps", "single_jumps"])
         .done()
 }
 
@@ -64,18 +64,18 @@ fn ring(jumps: &Jumps) -> Table {
     let less = || Some(difference(ring.sigma?, walls?.jump.all_gaps.sigma?));
     Table::builder("jump.ring", &[ring], |_| 0)
         .count("chains", "chains of all σ", |_| jumps.ring.chains())
-        .computed_by(origin(mode_jump))
         .estimate("place", SIGMA, PLACE, |ring| ring.sigma)
         .estimate("difference", SIGMA, "place less that between walls", |_| less())
-        .computed_by(origin(Passing::is_jump))
+        .computed_by(origin(mode_jump), &["place", "difference"])
         .chosen("jumps", "1", JUMPS, |ring| outcome(ring))
+        .computed_by(origin(Passing::is_jump), &["jumps"])
         .done()
 }
 
 fn widths(jumps: &Jumps) -> Table {
     Table::builder("jump.widths", &jumps.widths, |_| 0)
+        .table_computed_by(origin(mode_jump))
         .key("half_width", "1", |row| row.0 as f64)
-        .computed_by(origin(mode_jump))
         .estimate("place", SIGMA, "σ of the jump with our protocol, smoothed so", |row| row.1)
         .done()
 }
@@ -94,8 +94,8 @@ fn rows(window: &WindowJump) -> Table {
     const ONE: &str = "share of chains with one gap, of those with any";
     const ALL: &str = "share of chains with all gaps, of those with any";
     Table::builder("jump.rows", &rows, |((row, _), _)| row.chains as usize)
+        .table_computed_by(origin(mode_jump))
         .key("sigma", SIGMA, |((row, _), _)| row.sigma)
-        .computed_by(origin(mode_jump))
         .estimate("single", "1", ONE, |((row, _), own)| share(own[1].into(), row.chains as u64))
         .estimate("all", "1", ALL, |((row, _), _)| {
             share((row.end * row.chains).round() as u64, row.chains as u64)
@@ -132,7 +132,6 @@ fn distributions(window: &WindowJump) -> Table {
     Table::builder("jump.distributions", &rows, |(row, ..)| row.chains as usize)
         .key("sigma", SIGMA, |(row, ..)| row.sigma)
         .key("gaps", "1", |(_, k, _)| *k as f64)
-        .computed_by(origin(distributions))
         .real("share", "1", 3, "share of chains, of those with an impact", |(.., share)| *share)
         .done()
 }

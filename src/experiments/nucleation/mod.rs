@@ -13,6 +13,6 @@ pub const NUCLEATION: Experiment<NucleationParams, Nucleation> = Experiment {
     own: &["src/experiments/nucleation"],
     reads: &[],
     parameters: NucleationParams::new,
-    how: Whole(run::run, |parameters| parameters.chains() * SECOND / 30_000),
+    how: Whole(run::run, |parameters| parameters.chains() * WORK_PER_SECOND / 30_000),
     tables: tables::make,
 };

@@ -19,7 +19,7 @@ pub const SEEDS: Experiment<SeedsParams, Seeds> = Experiment {
     reads: &[],
     parameters: SeedsParams::new,
     how: Whole(run, |parameters| {
-        (parameters.sigmas.len() * parameters.realisations) as u64 * SECOND / 600
+        (parameters.sigmas.len() * parameters.realisations) as u64 * WORK_PER_SECOND / 600
     }),
     tables: tables::make,
 };

@@ -4,14 +4,18 @@ use impact_circuits::Error;
 use literate::table::{Building, Table};
 use literate::value::Origin;
 
-/// Returns the value of a formula that exists for the numbers of the paper.
-pub(crate) fn known<T>(result: Result<T, Error>) -> T {
+/// Returns the value of a formula, which exists for the numbers of the paper.
+///
+/// # Panics
+///
+/// If it does not.
+pub(crate) fn expect_known<T>(result: Result<T, Error>) -> T {
     result.expect("the theory exists for the paper's N and p")
 }
 
 /// Begins a table with one row.
 pub(crate) fn one_row(name: &'static str, item: Origin) -> Building<'static, ()> {
-    Table::builder(name, &[()], |()| 0).computed_by(item)
+    Table::builder(name, &[()], |()| 0).table_computed_by(item)
 }
 
 /// Adds numbers from first to last, so that the sum has the same bits on every machine.

@@ -69,24 +69,25 @@ pub fn tables(results: &Results, computed: &[Table]) -> Option<Vec<Table>> {
     let half = sweep.first_curve().rise.half_height.zip(relation.number(&[], "sigma_half").ok());
     let half_gap = half.map(|(half, theory)| theory - half.value);
     let table = Table::builder("sweep.against_theory", &[()], |()| 0)
-        .computed_by(origin(largest_distance))
+        .table_computed_by(origin(largest_distance))
         .chosen("large_sigma", SIGMA, "from here on σ is called large", |()| Some(LARGE_SIGMA))
         .real("large_distance", "1", 2, "largest distance of both means at large σ", |()| far(0))
         .chosen("large_distance_at", SIGMA, "σ of it", |()| far(1))
+        .computed_by(origin(largest_distance), &["large_distance_at"])
         .real("large_theory", "1", 3, "μ there", |()| far(2))
         .real("large_mean", "1", 3, "simulated mean there", |()| far(3))
-        .computed_by(origin(increases))
         .real("largest_increase", "1", 2, "of the simulated mean in one step", |()| {
             Some(of_active?[0])
         })
         .real("increase_of_two", "1", 2, "in two steps", |()| Some(of_active?[1]))
         .real("increase_of_all", "1", 2, "of the mean of all in one step", |()| Some(of_all?[0]))
+        .computed_by(origin(increases), &["largest_increase", "increase_of_two", "increase_of_all"])
         .chosen("step", SIGMA, "the finest of the grid", |()| Some(finest))
-        .computed_by(origin(Curve::new))
         .real("half_gap", SIGMA, 2, HALF_GAP, |()| half_gap)
-        .computed_by(origin(distance))
+        .computed_by(origin(Curve::new), &["half_gap"])
         .real("simple", "1", 3, SIMPLE, |()| distance(&means, simple))
         .real("higher", "1", 3, "the same with five classes", |()| distance(&means, higher))
+        .computed_by(origin(distance), &["simple", "higher"])
         .done();
     Some(vec![table])
 }

@@ -1,6 +1,6 @@
 //! Counts circuits: Secs. 3 and 5, Fig. 7.
 
-use super::basics::{known, largest, one_row, sum};
+use super::basics::{expect_known, largest, one_row, sum};
 use crate::experiments::prelude::*;
 use crate::params::{GRAPH_MASSES, VERTICES};
 use impact_circuits::distribution::SampleSpace;
@@ -24,14 +24,14 @@ pub(super) fn graph() -> Table {
 
 /// Returns the share of simple circuits of length k = 1..=N, and its decimal logarithm: Fig. 7.
 pub fn shares() -> [Vec<f64>; 2] {
-    let (shares, log_total) = known(counting::shares(VERTICES));
-    let logarithm = |k| (known(counting::log_phi(VERTICES, k)) - log_total) / LN_10;
+    let (shares, log_total) = expect_known(counting::shares(VERTICES));
+    let logarithm = |k| (expect_known(counting::log_phi(VERTICES, k)) - log_total) / LN_10;
     [shares, (1..=VERTICES).map(logarithm).collect()]
 }
 
 pub(super) fn lengths() -> Table {
     const EXCEPTIONS: &str = "lengths k < N with over a tenth as many circuits as N";
-    let (shares, _) = known(counting::shares(VERTICES));
+    let (shares, _) = expect_known(counting::shares(VERTICES));
     let ratio = |k| counting::ratio_to_longest(VERTICES, k);
     let far = largest((1..VERTICES - ABOUT).map(ratio));
     let exceptions = (1..VERTICES).filter(|&k| ratio(k) > 0.1).count();
@@ -41,10 +41,11 @@ pub(super) fn lengths() -> Table {
         .real("before_last", "1", 4, "Eq. (8) at k = N − 1", |()| ratio(VERTICES - 1))
         .real("largest_far", "1", 2, "the largest for k that are not about N", |()| far)
         .count("exceptions", EXCEPTIONS, |()| exceptions as u64)
-        .computed_by(origin(counting::shares))
         .count("peak", "the most frequent length", |()| peak.unwrap_or(VERTICES) as u64)
         .count("from", "a twentieth below N", |()| (VERTICES - ABOUT) as u64)
+        .computed_by(origin(lengths), &["from"])
         .real("share", "1", 2, "of simple circuits that are as long or longer", |()| long)
+        .computed_by(origin(counting::shares), &["peak", "share"])
         .done()
 }
 
@@ -52,16 +53,15 @@ pub(super) fn lengths() -> Table {
 pub(super) fn commuting_circuits() -> Table {
     let [circuits, classes] = commuting::simple_classes(ENUMERATED).map(|count| count as u64);
     let by_eq7: u128 = (1..=ENUMERATED).filter_map(|k| counting::phi(ENUMERATED, k)).sum();
-    let leap = known(jump::p_jump(SampleSpace::Simple, VERTICES));
+    let leap = expect_known(jump::p_jump(SampleSpace::Simple, VERTICES));
     let mean = commuting::mean_without_orders(VERTICES, leap.p);
     one_row("theory.commuting", origin(commuting::simple_classes))
         .count("gaps", "gaps of a chain", |()| ENUMERATED as u64)
         .count("circuits", "simple circuits, each cyclic order of impacts once", |()| circuits)
-        .computed_by(origin(counting::phi))
         .count("by_eq7", "the same by Eq. (7)", |()| by_eq7 as u64)
-        .computed_by(origin(commuting::simple_classes))
+        .computed_by(origin(counting::phi), &["by_eq7"])
         .count("classes", "of them that a mass tells apart", |()| classes)
-        .computed_by(origin(commuting::mean_without_orders))
         .real("mean", "1", 2, "mean number at the jump, each class with p^k once", |()| mean)
+        .computed_by(origin(commuting::mean_without_orders), &["mean"])
         .done()
 }

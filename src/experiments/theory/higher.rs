@@ -1,6 +1,6 @@
 //! Computes what circuits that repeat vertices change: Sec. 9, Figs. 13 and 14.
 
-use super::basics::{known, one_row, sum};
+use super::basics::{expect_known, sum};
 use super::census::{census, counted};
 use super::comparison::interpolate;
 use super::law::{law, means, simple};
@@ -56,16 +56,15 @@ pub(super) fn classes() -> Table {
     let share = |p: &f64| sum(law(FiveClasses, *p).contribution(&CLASSES[0]));
     let difference = |p: &f64| law(FiveClasses, *p).mean() - law(Simple, *p).mean();
     Table::builder("theory.classes", &REMARK_P, |_| 0)
-        .computed_by(origin(contributions))
         .key("p", "1", |p| *p)
         .real("simple", "1", 2, "share of simple circuits", share)
-        .computed_by(origin(total_variation))
+        .computed_by(origin(contributions), &["simple"])
         .real("variation", "1", 2, VARIATION, |p| total_variation(&five(*p), &simple(*p)))
-        .computed_by(origin(apart_in_shape))
+        .computed_by(origin(total_variation), &["variation"])
         .real("shape", "1", 2, SHAPE, |p| apart_in_shape(&five(*p), &simple(*p)))
-        .computed_by(origin(Law::mean))
+        .computed_by(origin(apart_in_shape), &["shape"])
         .real("mean_difference", "1", 2, "μ less that of simple circuits", difference)
-        .computed_by(origin(first_order))
+        .computed_by(origin(Law::mean), &["mean_difference"])
         .real("first_order", "1", 2, FIRST_ORDER, first_order)
         .done()
 }
@@ -139,7 +138,7 @@ pub(super) fn higher(curve: &Table, relation: &Table) -> Table {
     const APART: &str = "p at which the means differ most in proportion";
     let eq30 = doubled_as_printed(3, 3);
     let counted = counted(&census(), 3, 3, &[1]) as u64;
-    let jump = |space| known(jump::p_jump(space, VERTICES));
+    let jump = |space| expect_known(jump::p_jump(space, VERTICES));
     let (leap, shifted) = (jump(FiveClasses), jump(FiveClassesPrinted).p);
     let [first, _, last] = HIGHER_P;
     // From this k on p k²/2 is at least one.
@@ -155,29 +154,31 @@ pub(super) fn higher(curve: &Table, relation: &Table) -> Table {
     let shift_there = || Some((shifted_to()? - change_at).abs());
     let shift = |column| (sigma_of(column) - sigma_of("sigma_jump")).abs();
     let over = shift("sigma_jump_rest") / shift("sigma_jump_higher");
-    one_row("theory.higher", origin(doubled_as_printed))
+    Table::builder("theory.higher", &[()], |()| 0)
         .real("eq30_printed", "1", 1, "Eq. (30) as printed, k = N = 3", |()| eq30)
+        .computed_by(origin(doubled_as_printed), &["eq30_printed"])
         .count("eq30_counted", "circuits that it should count", |()| counted)
-        .computed_by(origin(jump::p_jump))
+        .computed_by(origin(counted), &["eq30_counted"])
         .real("p_jump", "1", 5, "p_jump with five classes", |()| leap.p)
         .count("k_after", "k* after it", |()| leap.k_after as u64)
         .real("printed_shift", "1", 1, SHIFT, |()| shifted / leap.p - 1.0)
-        .computed_by(origin(five))
+        .computed_by(origin(jump::p_jump), &["p_jump", "k_after", "printed_shift"])
         .count("tail_from", FROM, |()| tail as u64)
-        .computed_by(origin(by_different))
         .real("simple_by_different", "1", 2, SIMPLE, |()| simple_by_different(first))
+        .computed_by(origin(simple_by_different), &["simple_by_different"])
         .count("step_by_different", STEP, |()| largest_step())
-        .computed_by(origin(five))
+        .computed_by(origin(largest_step), &["step_by_different"])
         .real("tail_weight", "1", 1, "probability of these k", |()| weight)
-        .computed_by(origin(doubling))
+        .computed_by(origin(five), &["tail_weight"])
         .real("doubling", "1", 3, DOUBLING, |()| doubling(last))
-        .computed_by(origin(means_apart))
+        .computed_by(origin(doubling), &["doubling"])
         .chosen("means_apart_at", "1", APART, |()| Some(at))
         .real("means_apart", "1", 2, "by so much", |()| more - mean)
         .real("means_ratio", "1", 2, "in proportion", |()| more / mean - 1.0)
-        .computed_by(origin(largest_change))
+        .computed_by(origin(means_apart), &["means_apart_at", "means_apart", "means_ratio"])
         .real("change", "1", 2, "largest change of μ over σ", |()| change)
         .chosen("change_at", SIGMA, "σ of it", |()| Some(change_at))
+        .computed_by(origin(largest_change), &["change", "change_at"])
         .real("half_shift", SIGMA, 1, "shift of σ at which μ is (N + 1)/2", |()| half_shift)
         .real("shift_there", SIGMA, 2, "shift of the curve there", |()| shift_there())
         .real("relation_over", "1", 2, "shift of the jump from rest over that by orders", |()| over)

@@ -1,6 +1,6 @@
 //! Computes the jump of the most likely number of impacts: Sec. 7, Fig. 10.
 
-use super::basics::{known, one_row};
+use super::basics::{expect_known, one_row};
 use super::law::{k_star, law};
 use crate::experiments::prelude::*;
 use crate::params::VERTICES;
@@ -12,34 +12,35 @@ use impact_numerics::roots;
 const N: f64 = VERTICES as f64;
 
 pub(super) fn numbers() -> Table {
-    let p_crit = |vertices| known(jump::p_crit(vertices));
-    let (crit, leap) = (p_crit(VERTICES), known(jump::p_jump(Simple, VERTICES)));
-    let (at_one, between) = (law(Simple, 1.0), 0.5 * (crit + leap.bracket[0]));
-    let [before, last] = [VERTICES - 1, VERTICES].map(|k| known(at_one.weight(k)));
-    let [by_variance, by_difference] = mean_slopes(leap.p);
+    let p_crit_of = |vertices| expect_known(jump::p_crit(vertices));
+    let (p_crit, p_jump) = (p_crit_of(VERTICES), expect_known(jump::p_jump(Simple, VERTICES)));
+    let (at_one, between) = (law(Simple, 1.0), 0.5 * (p_crit + p_jump.bracket[0]));
+    let [before, last] = [VERTICES - 1, VERTICES].map(|k| expect_known(at_one.weight(k)));
+    let [by_variance, by_difference] = mean_slopes(p_jump.p);
     one_row("theory.jump", origin(jump::p_crit))
-        .real("p_crit", "1", 5, "Eq. (18)", |()| crit)
-        .real("p_crit_walls", "1", 5, "the same for N + 1", |()| p_crit(VERTICES + 1))
-        .real("k_touch", "1", 4, "double zero of f at p_crit", |()| top(crit))
-        .computed_by(origin(touching))
+        .real("p_crit", "1", 5, "Eq. (18)", |()| p_crit)
+        .real("p_crit_walls", "1", 5, "the same for N + 1", |()| p_crit_of(VERTICES + 1))
+        .real("k_touch", "1", 4, "double zero of f at p_crit", |()| top(p_crit))
+        .computed_by(origin(top), &["k_touch"])
         .real("p_crit_found", "1", 5, "where zeros of f appear, by bisection", |()| touching())
-        .computed_by(origin(flat))
+        .computed_by(origin(touching), &["p_crit_found"])
         .real("p_flat", "1", 6, "where Φ of real k has a stationary inflexion", |()| flat()[0])
         .real("k_flat", "1", 3, "its k", |()| flat()[1])
-        .computed_by(origin(jump::p_jump))
-        .real("p_jump", "1", 5, "p at which k* leaves 1", |()| leap.p)
-        .count("k_after", "k* after it", |()| leap.k_after as u64)
-        .real("after_crit", "1", 2, "p_jump/p_crit − 1", |()| leap.p / crit - 1.0)
-        .computed_by(origin(Law::k_star))
+        .computed_by(origin(flat), &["p_flat", "k_flat"])
+        .real("p_jump", "1", 5, "p at which k* leaves 1", |()| p_jump.p)
+        .count("k_after", "k* after it", |()| p_jump.k_after as u64)
+        .real("after_crit", "1", 2, "p_jump/p_crit − 1", |()| p_jump.p / p_crit - 1.0)
+        .computed_by(origin(jump::p_jump), &["p_jump", "k_after", "after_crit"])
         .count("k_at_zero", "k* for p → 0", |()| k_star(0.0) as u64)
-        .count("k_at_crit", "k* at p_crit", |()| k_star(crit) as u64)
+        .count("k_at_crit", "k* at p_crit", |()| k_star(p_crit) as u64)
         .count("k_before", "k* half way from p_crit to p_jump", |()| k_star(between) as u64)
         .count("k_at_one", "k* at p = 1", |()| at_one.k_star() as u64)
-        .computed_by(origin(Law::weight))
+        .computed_by(origin(Law::k_star), &["k_at_zero", "k_at_crit", "k_before", "k_at_one"])
         .real("last_ratio", "1", 2, "Φ(N)/Φ(N − 1) at p = 1", |()| (last / before).to_f64())
-        .computed_by(origin(mean_slopes))
+        .computed_by(origin(Law::weight), &["last_ratio"])
         .real("slope", "1", 4, "dμ/dp at p_jump, by a difference", |()| by_difference)
         .real("variance_over_p", "1", 4, "Var(X)/p at p_jump", |()| by_variance)
+        .computed_by(origin(mean_slopes), &["slope", "variance_over_p"])
         .done()
 }
 
@@ -58,8 +59,9 @@ pub(super) fn first_maximum() -> Table {
 
 /// Returns the p of Fig. 10: 0, p_crit, half way from there to the jump, and the jump itself.
 pub fn stages() -> [f64; 4] {
-    let (crit, leap) = (known(jump::p_crit(VERTICES)), known(jump::p_jump(Simple, VERTICES)).p);
-    [0.0, crit, 0.5 * (crit + leap), leap]
+    let p_crit = expect_known(jump::p_crit(VERTICES));
+    let p_jump = expect_known(jump::p_jump(Simple, VERTICES)).p;
+    [0.0, p_crit, 0.5 * (p_crit + p_jump), p_jump]
 }
 
 /// Returns f_{N,p}(k) on [0, N], four points to a unit of k.
@@ -71,7 +73,7 @@ pub fn f(p: f64) -> Vec<(f64, f64)> {
 /// Returns the zeros of f_{N,p}; at the double nearest to p_crit both are 1/√p, on whichever side
 /// of p_crit it lies.
 pub fn zeros(p: f64) -> Option<[f64; 2]> {
-    if p == known(jump::p_crit(VERTICES)) {
+    if p == expect_known(jump::p_crit(VERTICES)) {
         return Some([1.0 / p.sqrt(); 2]);
     }
     jump::zeros(VERTICES, p)

@@ -1,6 +1,6 @@
 //! Computes the theory for many vertices, with p N held fixed as N grows: Fig. S6.
 
-use super::basics::known;
+use super::basics::expect_known;
 use crate::experiments::prelude::*;
 use crate::params::{Grid, LARGE_VERTICES};
 use impact_circuits::distribution::SampleSpace::Simple;
@@ -15,14 +15,15 @@ fn drawn() -> Vec<f64> {
 }
 
 pub(super) fn large() -> Table {
-    let jump = |vertices| (vertices as f64, known(p_jump(Simple, vertices)));
+    let jump = |vertices| (vertices as f64, expect_known(p_jump(Simple, vertices)));
     let jumps: Vec<(f64, Jump)> = LARGE_VERTICES.into_par_iter().map(jump).collect();
     Table::builder("theory.large", &jumps, |_| 0)
-        .computed_by(origin(p_jump))
         .key("n", "1", |(n, _)| *n)
         .real("vertices", "1", 1, "N", |(n, _)| *n)
         .real("share", "1", 2, "k*/N after the jump", |(n, jump)| jump.k_after as f64 / n)
+        .computed_by(origin(p_jump), &["share"])
         .real("rule", "1", 4, "root of k² = 2 N (ln k − 1)", |(n, _)| jump_rule(*n as usize))
+        .computed_by(origin(jump_rule), &["rule"])
         .done()
 }
 
@@ -32,7 +33,7 @@ pub fn limit() -> Vec<(f64, f64)> {
 
 /// Returns k*/N against p N: 1 before the jump, the local maximum beyond.
 pub fn shares(vertices: usize) -> [Vec<(f64, f64)>; 2] {
-    let leap = known(p_jump(Simple, vertices));
+    let leap = expect_known(p_jump(Simple, vertices));
     let (big_n, at) = (vertices as f64, leap.p * vertices as f64);
     let point = |x: f64, k: usize| (x, k as f64 / big_n);
     let (before, after): (Vec<f64>, Vec<f64>) = drawn().into_iter().partition(|x| *x <= at);

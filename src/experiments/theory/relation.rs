@@ -1,6 +1,6 @@
 //! Computes p(σ), and μ along it (Sec. 8, Figs. 11, 12 and 15), and gaps that close by themselves.
 
-use super::basics::{known, largest, one_row};
+use super::basics::{expect_known, largest, one_row};
 use super::law::law;
 use crate::experiments::prelude::*;
 use crate::params::{self, Grid, Profile, VERTICES};
@@ -18,11 +18,11 @@ const OVERLAP: f64 = 0.145;
 
 /// Returns p(σ) of Eq. (25) for the paper's chain, 0 where it underflows.
 pub(super) fn p_of(sigma: f64) -> f64 {
-    known(ImpactProbability::of_paper(sigma)).p().unwrap_or(0.0)
+    expect_known(ImpactProbability::of_paper(sigma)).p().unwrap_or(0.0)
 }
 
 fn p_rest_of(sigma: f64) -> f64 {
-    known(ImpactProbability::of_paper(sigma)).p_from_rest().unwrap_or(0.0)
+    expect_known(ImpactProbability::of_paper(sigma)).p_from_rest().unwrap_or(0.0)
 }
 
 /// Returns the smallest σ < 1 from which on a property holds, to the last bit.
@@ -52,12 +52,12 @@ pub(super) fn curve() -> Table {
     };
     let rows: Vec<[f64; 6]> = sigmas.values().into_par_iter().map(row).collect();
     Table::builder("theory.curve", &rows, |_| 0)
+        .table_computed_by(origin(Law::mean))
         .key("sigma", SIGMA, |row| row[0])
-        .computed_by(origin(ImpactProbability::p))
         .real("p", "1", 3, "Eq. (25)", |row| row[1])
-        .computed_by(origin(ImpactProbability::p_from_rest))
+        .computed_by(origin(ImpactProbability::p), &["p"])
         .real("p_rest", "1", 3, "the same from rest", |row| row[2])
-        .computed_by(origin(Law::mean))
+        .computed_by(origin(ImpactProbability::p_from_rest), &["p_rest"])
         .real("simple", "1", 3, "μ, simple circuits", |row| row[3])
         .real("higher", "1", 3, "μ, five classes", |row| row[4])
         .real("rest", "1", 3, "μ from rest, simple circuits", |row| row[5])
@@ -91,8 +91,8 @@ fn overlap(sigma: f64) -> f64 {
 /// Returns the largest relative difference of the closed form of Eq. (25) and the integral.
 fn eq25() -> f64 {
     largest([0.15, 0.2, 0.3, 0.5, 1.0].map(|sigma| {
-        let law = known(ImpactProbability::of_paper(sigma));
-        (law.p_by_double_integral(8) / known(law.p()) - 1.0).abs()
+        let law = expect_known(ImpactProbability::of_paper(sigma));
+        (law.p_by_double_integral(8) / expect_known(law.p()) - 1.0).abs()
     }))
 }
 
@@ -100,31 +100,31 @@ pub(super) fn relation() -> Table {
     const KEPT_HALF: &str = "σ at which half of the chains have a seed";
     const KEPT_ONSET: &str = "σ at which enough have one for the onset";
     const ALONE: &str = "σ at which a quarter of the gaps close by themselves";
-    let crit = known(p_crit(VERTICES));
+    let crit = expect_known(p_crit(VERTICES));
     let jumps = [(Simple, VERTICES), (Simple, VERTICES + 1), (FiveClasses, VERTICES)];
-    let [jump, walls, higher] = jumps.map(|(space, vertices)| known(p_jump(space, vertices)).p);
+    let [jump, walls, higher] =
+        jumps.map(|(space, vertices)| expect_known(p_jump(space, vertices)).p);
     one_row("theory.relation", origin(reaches))
         .real("sigma_crit", SIGMA, 4, "σ at which p is p_crit", |()| reaches(p_of, crit))
         .real("sigma_jump", SIGMA, 4, "σ at which p is p_jump", |()| reaches(p_of, jump))
         .real("sigma_jump_walls", SIGMA, 4, "the same for N + 1", |()| reaches(p_of, walls))
         .real("sigma_jump_rest", SIGMA, 4, "from rest", |()| reaches(p_rest_of, jump))
         .real("sigma_jump_higher", SIGMA, 4, "with five classes", |()| reaches(p_of, higher))
-        .computed_by(origin(half))
         .real("sigma_half", SIGMA, 4, "σ at which μ is (N + 1)/2", |()| half(p_of, Simple))
         .real("sigma_half_rest", SIGMA, 4, "from rest", |()| half(p_rest_of, Simple))
         .real("sigma_half_higher", SIGMA, 4, "with five classes", |()| half(p_of, FiveClasses))
-        .computed_by(origin(eq25))
+        .computed_by(origin(half), &["sigma_half", "sigma_half_rest", "sigma_half_higher"])
         .real("difference", "1", 1, "Eq. (25) less its double integral, relative", |()| eq25())
-        .computed_by(origin(sigma_kept))
+        .computed_by(origin(eq25), &["difference"])
         .real("sigma_kept_half", SIGMA, 3, KEPT_HALF, |()| sigma_kept(0.5))
         .real("sigma_kept_onset", SIGMA, 3, KEPT_ONSET, |()| sigma_kept(ONSET))
-        .computed_by(origin(reaches))
+        .computed_by(origin(sigma_kept), &["sigma_kept_half", "sigma_kept_onset"])
         .real("alone_quarter", SIGMA, 3, ALONE, |()| reaches(p_rest_of, 0.25))
         .real("alone_half", SIGMA, 3, "half of them", |()| reaches(p_rest_of, 0.5))
         .real("alone_three_quarters", SIGMA, 3, "three quarters", |()| reaches(p_rest_of, 0.75))
-        .computed_by(origin(overlap))
         .chosen("overlap_sigma", SIGMA, "of random starts", |()| Some(OVERLAP))
         .real("overlap_share", "1", 2, "starts that overlap, over p", |()| overlap(OVERLAP))
+        .computed_by(origin(overlap), &["overlap_share"])
         .done()
 }
 
@@ -138,15 +138,14 @@ pub(super) fn gaps() -> Table {
     sigmas.dedup();
     Table::builder("theory.gap", &sigmas, |_| 0)
         .key("sigma", SIGMA, |sigma| *sigma)
-        .computed_by(origin(ImpactProbability::p))
         .real("p", "1", 3, "Eq. (25)", |sigma| p_of(*sigma))
-        .computed_by(origin(ImpactProbability::p_from_rest))
+        .computed_by(origin(ImpactProbability::p), &["p"])
         .real("p_rest", "1", 3, "the same from rest", |sigma| p_rest_of(*sigma))
+        .computed_by(origin(ImpactProbability::p_from_rest), &["p_rest"])
         .real("ratio", "1", 2, "p_rest/p", |sigma| p_rest_of(*sigma) / p_of(*sigma))
         .real("expected", "1", 2, "gaps that close by themselves, from rest", expected)
-        .computed_by(origin(any))
         .real("any_rest", "1", 3, "probability that one does", |sigma| any(p_rest_of(*sigma), gaps))
-        .computed_by(origin(any_random))
+        .computed_by(origin(any), &["any_rest"])
         .real("any_random", "1", 3, "bound on it with random free parts", any_random)
         .done()
 }

@@ -182,7 +182,7 @@ pub fn judge_all(
 
 /// Judges each statement once more with another first digit in its number. Returns the ids of those
 /// that are still reproduced or explained: their verdicts say nothing about the number.
-pub fn blind_to_their_number(
+pub fn ids_blind_to_number(
     published: &Published,
     rules: &[Rule],
     results: &Results,
@@ -200,7 +200,7 @@ pub fn blind_to_their_number(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::claims::never_moved;
+    use crate::claims::ids_never_moved;
     use crate::table::Table;
     use crate::text;
     use impact_numerics::statistics::Estimate;
@@ -317,7 +317,7 @@ mod tests {
             .relation("It never fails."),
         ];
         let published = Published::parse(PUBLISHED).unwrap();
-        let named = |open| never_moved(&published, &rules, &results(), open).unwrap();
+        let named = |open| ids_never_moved(&published, &rules, &results(), open).unwrap();
         assert_eq!(named(false), ["mean", "panics"]);
         assert_eq!(named(true), ["mean", "words", "panics"]);
     }

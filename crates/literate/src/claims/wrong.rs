@@ -53,7 +53,7 @@ pub(crate) fn is_trying() -> bool {
 /// and judges again. Returns the ids of statements that are reproduced whatever changes, and of
 /// those that are explained whatever changes a little: their verdicts cannot fail. With `open` also
 /// those that no change decides, which takes longer. Definitions are left out.
-pub fn never_moved(
+pub fn ids_never_moved(
     published: &Published,
     rules: &[Rule],
     results: &Results,
@@ -84,7 +84,7 @@ pub fn never_moved(
             }
         };
         if let Ok(table) = results.table(name) {
-            for column in 0..table.width() {
+            for column in 0..table.names().count() {
                 let changed = |change| table.with_column_changed(column, change);
                 try_all(&|change| Some(results.with_table(changed(change)?)));
             }

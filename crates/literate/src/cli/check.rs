@@ -2,7 +2,7 @@
 
 use super::common::{RunOptions, refuse_outdated, scores, verdict};
 use super::terminal::print;
-use crate::claims::{Check, Verdict, blind_to_their_number, never_moved};
+use crate::claims::{Check, Verdict, ids_blind_to_number, ids_never_moved};
 use crate::failure::Failure;
 use crate::input::one_line;
 use crate::paper::Paper;
@@ -20,7 +20,7 @@ use std::collections::BTreeMap;
 /// statement differs without an explanation that holds, that a relation between numbers does not
 /// hold, or that the report is not as prose and results would make it. Each statement with a
 /// printed number is judged once more with another first digit in it; those that are still
-/// reproduced or explained are named. Each is judged by wrong results too: the numbers that its
+/// reproduced or explained are named. Each is judged from wrong results too: the numbers that its
 /// rule reads are changed one after the other, and a verdict that stays the same is named. With -v
 /// this is also done, in some seconds, where the verdict is open.
 #[derive(clap::Args)]
@@ -50,9 +50,9 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     let (mut checks, mut blind, mut unmoved) =
         args.options.threads.run(|| -> Result<_, Failure> {
             let results = paper.results(&paper.experiments, &session)?;
-            let blind = blind_to_their_number(&published, &paper.rules, &results);
+            let blind = ids_blind_to_number(&published, &paper.rules, &results);
             let checks = paper.checks(&results, &published)?;
-            let unmoved = never_moved(&published, &paper.rules, &results, args.verbose);
+            let unmoved = ids_never_moved(&published, &paper.rules, &results, args.verbose);
             Ok((checks, blind, unmoved?))
         })?;
     let printed = checks.iter().filter(|check| check.kind.is_printed());
@@ -66,16 +66,21 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     for ids in [&mut blind, &mut unmoved] {
         ids.retain(|id| checks.iter().any(|check| check.id == *id));
     }
-    print(&report_text(&checks, [&blind, &unmoved], &args, &numbers))?;
+    let unfailing = [
+        ("reproduced or explained also with another first digit in the printed number", &*blind),
+        ("the same verdict with every wrong result that was tried", &*unmoved),
+    ];
+    print(&report_text(&checks, unfailing, &args, &numbers))?;
     verdict(&checks)?;
-    refuse_outdated(paper, &session, &args.options.out(paper)).map(drop)
+    refuse_outdated(paper, &session, &args.options.out(paper))?;
+    Ok(())
 }
 
-/// Prints a line for each check that is not reproduced, failed ones first, and the scores; with -v,
-/// or if some were asked for, all that is known of each.
+/// Returns a line for each check that is not reproduced, failed ones first, and the scores; with
+/// -v, or if some were asked for, all that is known of each.
 fn report_text(
     checks: &[Check],
-    unfailing: [&[&str]; 2],
+    unfailing: [(&str, &[&str]); 2],
     args: &Args,
     numbers: &BTreeMap<String, String>,
 ) -> String {
@@ -85,9 +90,9 @@ fn report_text(
     listed.sort_by_key(|check| !check.fails());
     let mut lines = String::new();
     for check in listed {
-        let sign = if check.fails() { "FAILS" } else { &check.verdict.sign().to_string() };
+        let mark = if check.fails() { "FAILS" } else { &check.verdict.sign().to_string() };
         let number = numbers.get(&check.id).map_or("", String::as_str);
-        lines += &format!("{sign:5} {number:>2} {}: {}", check.id, check.words());
+        lines += &format!("{mark:5} {number:>2} {}: {}", check.id, check.words());
         if let Some(why) = check.difference() {
             lines += &format!(" ({why})");
         }
@@ -117,11 +122,7 @@ fn report_text(
     for line in scores(checks) {
         lines += &format!("{line}\n");
     }
-    let meaning = [
-        "reproduced or explained also with another first digit in the printed number",
-        "the same verdict with every wrong result that was tried",
-    ];
-    for (meaning, ids) in meaning.into_iter().zip(unfailing).filter(|(_, ids)| !ids.is_empty()) {
+    for (meaning, ids) in unfailing.into_iter().filter(|(_, ids)| !ids.is_empty()) {
         lines += &format!("{meaning}: {}\n", ids.join(", "));
     }
     if !is_complete {

@@ -12,27 +12,28 @@ use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// Work that a core does in about a second.
-pub const SECOND: u64 = 4_800_000;
+pub const WORK_PER_SECOND: u64 = 4_800_000;
 
-/// No unit is meant to weigh more than this: about a fifth of a second of one core ...
-const HEAVY: u64 = 1_000_000;
+/// The most work of a unit, a fifth of a second of one core, where [`MOST_UNITS`] allows it.
+const HEAVIEST_UNIT: u64 = 1_000_000;
 
-/// ... unless an experiment had then more units than about this many: each has a file.
-const MANY: u64 = 2000;
+/// About the most units of an experiment, each of which has a file.
+const MOST_UNITS: u64 = 2000;
 
+/// The realisations of one row, and their work.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UnitRow {
     pub realisations: usize,
-    /// Work of one realisation: a core does [`SECOND`] in about a second.
-    pub weight: u64,
+    /// Work of one realisation: a core does [`WORK_PER_SECOND`] in about a second.
+    pub work_of_one: u64,
     /// How many realisations are best run together: no unit has fewer, if there are as many.
-    pub together: usize,
+    pub group_size: usize,
 }
 
 impl UnitRow {
     /// Work of all its realisations.
     pub fn work(&self) -> u64 {
-        self.weight.saturating_mul(self.realisations as u64)
+        self.work_of_one.saturating_mul(self.realisations as u64)
     }
 }
 
@@ -44,47 +45,47 @@ pub struct Unit {
     /// Place of its row.
     pub row: usize,
     pub realisations: Range<usize>,
-    /// Its work.
-    pub weight: u64,
+    /// Work of these realisations.
+    pub work: u64,
 }
 
 impl Unit {
     /// Returns the only unit of an experiment that is not cut.
-    pub fn whole(weight: u64) -> Unit {
-        Unit { number: 0, row: 0, realisations: 0..0, weight }
+    pub fn whole(work: u64) -> Unit {
+        Unit { number: 0, row: 0, realisations: 0..0, work }
     }
 
-    /// Runs its realisations in groups of so many, in any order and on any thread, and advances the
-    /// stage after each group.
-    pub fn in_groups<R: Send>(
+    /// Runs its realisations in groups of `group_size`, in any order and on any thread, and
+    /// advances the stage after each group.
+    pub fn run_in_groups<R: Send>(
         &self,
-        together: usize,
+        group_size: usize,
         stage: &Stage,
         run: impl Fn(Range<u64>) -> Result<R, Error> + Sync,
     ) -> Result<Vec<R>, Error> {
         let Range { start, end } = self.realisations;
-        let weight = self.weight / self.realisations.len().max(1) as u64;
+        let work_of_one = self.work / self.realisations.len().max(1) as u64;
         let group = |first| {
-            let group = first as u64..end.min(first + together) as u64;
+            let group = first as u64..end.min(first + group_size) as u64;
             let number = group.end - group.start;
             let found = run(group);
-            stage.advance(number * weight);
+            stage.advance(number * work_of_one);
             found
         };
-        let firsts: Vec<usize> = (start..end).step_by(together.max(1)).collect();
+        let firsts: Vec<usize> = (start..end).step_by(group_size.max(1)).collect();
         firsts.into_par_iter().with_max_len(1).map(group).collect()
     }
 }
 
-/// Makes a result T of the parts U of each row, those of its units in order.
+/// Joins the parts U of each row, in the order of its units, to a result T.
 pub type Join<P, U, T> = fn(&P, Vec<Vec<U>>, &Progress) -> Result<T, Error>;
 
 /// How an experiment with parameters P is cut into parts U and joined to a result T.
 pub struct Cutting<P, U, T> {
     /// The rows, in their order.
     pub rows: fn(&P) -> Vec<UnitRow>,
-    /// Runs realisations of a row, and advances the stage by the row's weight for each.
-    pub part: fn(&P, &Unit, &Stage, &Progress) -> Result<U, Error>,
+    /// Runs realisations of a row, and advances the stage by the work of each.
+    pub run_unit: fn(&P, &Unit, &Stage, &Progress) -> Result<U, Error>,
     pub join: Join<P, U, T>,
 }
 
@@ -93,8 +94,8 @@ impl<P, U, T> Cutting<P, U, T> {
     pub fn units(&self, parameters: &P) -> Vec<Unit> {
         let rows = (self.rows)(parameters);
         let all = rows.iter().map(UnitRow::work).fold(0, u64::saturating_add);
-        let heavy = HEAVY.max(all / MANY);
-        let units = rows.iter().enumerate().flat_map(|(place, row)| cut(place, row, heavy));
+        let heaviest = HEAVIEST_UNIT.max(all / MOST_UNITS);
+        let units = rows.iter().enumerate().flat_map(|(place, row)| cut(place, row, heaviest));
         units.enumerate().map(|(number, unit)| Unit { number, ..unit }).collect()
     }
 
@@ -105,14 +106,14 @@ impl<P, U, T> Cutting<P, U, T> {
         U: Send,
     {
         let units = self.units(parameters);
-        let stage = progress.stage(name, units.iter().map(|unit| unit.weight).sum());
-        let part = |unit: &Unit| (self.part)(parameters, unit, &stage, progress);
-        let parts: Result<Vec<U>, Error> = units.par_iter().with_max_len(1).map(part).collect();
-        self.joined(parameters, &units, parts?, progress)
+        let stage = progress.stage(name, units.iter().map(|unit| unit.work).sum());
+        let run_unit = |unit: &Unit| (self.run_unit)(parameters, unit, &stage, progress);
+        let parts: Result<Vec<U>, Error> = units.par_iter().with_max_len(1).map(run_unit).collect();
+        self.join_parts(parameters, &units, parts?, progress)
     }
 
-    /// The result of the parts of all units, in order.
-    pub fn joined(
+    /// Joins the parts of all units, in their order, to a result.
+    pub fn join_parts(
         &self,
         parameters: &P,
         units: &[Unit],
@@ -128,17 +129,17 @@ impl<P, U, T> Cutting<P, U, T> {
     }
 }
 
-/// Cuts a row into the fewest pieces of about equal size of which none is heavy.
-fn cut(place: usize, row: &UnitRow, heavy: u64) -> Vec<Unit> {
+/// Cuts a row into the fewest pieces of about equal size of which none has more work than `most`.
+fn cut(place: usize, row: &UnitRow, most: u64) -> Vec<Unit> {
     let all = row.realisations;
-    let most = (all / row.together.max(1)).max(1) as u64;
-    let pieces = row.work().div_ceil(heavy).clamp(1, most);
+    let groups = (all / row.group_size.max(1)).max(1) as u64;
+    let pieces = row.work().div_ceil(most).clamp(1, groups);
     let at = |piece: u64| (all as u128 * u128::from(piece) / u128::from(pieces)) as usize;
     (0..pieces)
         .map(|piece| {
             let realisations = at(piece)..at(piece + 1);
-            let weight = row.weight.saturating_mul(realisations.len() as u64);
-            Unit { number: 0, row: place, realisations, weight }
+            let work = row.work_of_one.saturating_mul(realisations.len() as u64);
+            Unit { number: 0, row: place, realisations, work }
         })
         .collect()
 }
@@ -149,30 +150,31 @@ mod tests {
 
     #[test]
     fn every_realisation_is_in_one_unit() {
-        for (realisations, weight) in
+        for (realisations, work_of_one) in
             [(1, 1), (1000, 19_000), (7, 400_000), (3, 5_000_000), (10, 0)]
         {
-            let row = UnitRow { realisations, weight, together: 1 };
-            let units = cut(4, &row, HEAVY);
+            let row = UnitRow { realisations, work_of_one, group_size: 1 };
+            let units = cut(4, &row, HEAVIEST_UNIT);
             let all: Vec<usize> = units.iter().flat_map(|unit| unit.realisations.clone()).collect();
             assert_eq!(all, (0..realisations).collect::<Vec<_>>());
             assert!(units.iter().all(|unit| !unit.realisations.is_empty() && unit.row == 4));
-            let light = |unit: &Unit| unit.realisations.len() == 1 || unit.weight <= HEAVY + weight;
+            let most = HEAVIEST_UNIT + work_of_one;
+            let light = |unit: &Unit| unit.realisations.len() == 1 || unit.work <= most;
             assert!(units.iter().all(light), "{units:?}");
         }
-        let row = UnitRow { realisations: 100, weight: 1, together: 1 };
-        assert_eq!(cut(0, &row, HEAVY).len(), 1);
+        let row = UnitRow { realisations: 100, work_of_one: 1, group_size: 1 };
+        assert_eq!(cut(0, &row, HEAVIEST_UNIT).len(), 1);
     }
 
     #[test]
     fn a_billion_realisations_are_thousands_of_units() {
         let cutting: Cutting<u64, (), ()> = Cutting {
-            rows: |&realisations| {
-                let row =
-                    |weight| UnitRow { realisations: realisations as usize, weight, together: 1 };
+            rows: |&number| {
+                let realisations = number as usize;
+                let row = |work_of_one| UnitRow { realisations, work_of_one, group_size: 1 };
                 [100, 7000, 20_000].map(row).to_vec()
             },
-            part: |_, _, _, _| Ok(()),
+            run_unit: |_, _, _, _| Ok(()),
             join: |_, _, _| Ok(()),
         };
         assert_eq!(cutting.units(&300).len(), 1 + 3 + 6);

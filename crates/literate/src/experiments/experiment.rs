@@ -25,8 +25,8 @@ pub struct Experiment<P: 'static, T: 'static, U: 'static = ()> {
     pub tables: fn(&T) -> Vec<Table>,
 }
 
-/// Estimates the work of a run, of which a core does [`SECOND`](super::cutting::SECOND) in about a
-/// second, so that people know how long they will wait. No result depends on it.
+/// Estimates the work of a run, of which a core does [`super::cutting::WORK_PER_SECOND`] in about
+/// a second, so that people know how long they will wait. No result depends on it.
 pub type Work<P> = fn(&P) -> u64;
 
 pub enum How<P, T, U> {
@@ -90,7 +90,7 @@ impl<P: Json, T: Json, U: Json> Experiment<P, T, U> {
         for (unit, saved_part) in units.iter().zip(&saved) {
             if let Err(reason) = saved_part {
                 *reasons.entry(reason.clone()).or_insert(0) += 1;
-                work += unit.weight;
+                work += unit.work;
             }
         }
         let units_to_run: usize = reasons.values().sum();
@@ -107,7 +107,7 @@ impl<P: Json, T: Json, U: Json> Experiment<P, T, U> {
             if let Ok(part) = saved_part {
                 return Ok(part);
             }
-            let part = (cutting.part)(parameters, unit, &stage, progress)?;
+            let part = (cutting.run_unit)(parameters, unit, &stage, progress)?;
             store.save(&identity.for_unit(unit), &part)?;
             Ok(part)
         };
@@ -290,7 +290,7 @@ impl<P: Json, T: Json, U: Json> AnyExperiment for Experiment<P, T, U> {
             How::Cut(_, cutting) => {
                 let units = cutting.units(&parameters);
                 let (parts, _) = self.parts(&units, &parameters, identity, session)?;
-                cutting.joined(&parameters, &units, parts, progress)?
+                cutting.join_parts(&parameters, &units, parts, progress)?
             }
         };
         if self.identity(session)? != *identity {

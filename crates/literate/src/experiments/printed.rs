@@ -114,7 +114,7 @@ impl PrintedTable {
         }
         let table = self.table(experiment, name, line);
         // Behind a place in our source and the name of the table.
-        table.fault()?.splitn(3, ": ").nth(2).map(String::from)
+        table.fault.as_ref()?.splitn(3, ": ").nth(2).map(String::from)
     }
 
     fn fault_in(&self, row: &[Cell]) -> Option<String> {
@@ -143,11 +143,12 @@ impl PrintedTable {
     /// The table `experiment.name` that it is, once it has no fault.
     pub(super) fn table(&self, experiment: &str, name: &str, line: &'static str) -> Table {
         let name = leaked(&format!("{experiment}.{name}"));
-        let mut table = Table::builder(name, &self.rows, |_| 0).computed_by(Origin::of(line));
+        let mut table = Table::builder(name, &self.rows, |_| 0);
         for (at, name) in self.names().enumerate() {
             let estimate = name.strip_suffix("_error").and_then(|other| self.place(other));
             if estimate.is_none() {
                 table = self.add(table, at, leaked(name));
+                table = table.computed_by(Origin(line.into()), &[name]);
             }
         }
         table.done()
@@ -192,7 +193,7 @@ impl PrintedTable {
 }
 
 impl Cell {
-    /// Returns it with all its digits; none for null.
+    /// Returns it with all its digits, or no number for null.
     fn exact(&self) -> Number {
         let Json::Number(number) = &self.json else { return Number::None };
         let value = number.as_f64().unwrap_or(f64::NAN);

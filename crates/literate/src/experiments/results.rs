@@ -115,7 +115,7 @@ impl Results {
         }
         let (mut tables, mut names) = (Tables::new(), Names::default());
         for table in made {
-            if let Some(fault) = table.fault() {
+            if let Some(fault) = &table.fault {
                 return Err(fault.into());
             }
             let (name, place) = (table.name(), table.place());

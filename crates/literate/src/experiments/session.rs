@@ -1,6 +1,6 @@
 //! Holds what a run needs: project, prose, profile, store and progress.
 
-use super::cutting::{SECOND, Unit};
+use super::cutting::{Unit, WORK_PER_SECOND};
 use super::error::Error;
 use super::profile::Profile;
 use super::progress::Progress;
@@ -50,9 +50,10 @@ impl Session<'_> {
 
 /// Returns in words how long units take, or no words if the work of all of them is unknown.
 fn time(units: &[Unit], threads: u64) -> String {
-    let work: u64 = units.iter().map(|unit| unit.weight).sum();
-    let or_more = if units.iter().any(|unit| unit.weight == 0) { " or more" } else { "" };
-    if work == 0 { "".into() } else { format!(", {}{or_more}", duration(work / SECOND / threads)) }
+    let work: u64 = units.iter().map(|unit| unit.work).sum();
+    let or_more = if units.iter().any(|unit| unit.work == 0) { " or more" } else { "" };
+    let seconds = work / WORK_PER_SECOND / threads;
+    if work == 0 { "".into() } else { format!(", {}{or_more}", duration(seconds)) }
 }
 
 /// Returns a time in words, as precise as an estimate from counted work is.
@@ -83,7 +84,7 @@ mod tests {
         assert_eq!(duration(3), "a few seconds");
         assert_eq!(duration(41), "about 50 seconds");
         assert_eq!(duration(179), "about 3 minutes");
-        let units = [0, 100 * SECOND].map(Unit::whole);
+        let units = [0, 100 * WORK_PER_SECOND].map(Unit::whole);
         assert_eq!(time(&units, 2), ", about 50 seconds or more");
         assert_eq!([time(&units[..1], 2), time(&units[1..], 2)], ["", ", about 50 seconds"]);
     }

@@ -191,7 +191,7 @@ impl Axis {
         (self.position(self.lo), self.position(self.hi))
     }
 
-    /// Tells whether a value lies on the axis; an end touched within rounding is inside.
+    /// Returns whether a value lies on the axis; an end touched within rounding is inside.
     pub fn contains(&self, value: f64) -> bool {
         let at = self.position(value);
         let (lo, hi) = self.ends();
@@ -228,7 +228,7 @@ impl Ranged for Axis {
     }
 }
 
-/// Returns the smallest and the largest value; none if there is no value.
+/// Returns the smallest and the largest value, or `None` if there is no value.
 pub(super) fn range(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
     values
         .map(|value| [value; 2])
@@ -247,7 +247,7 @@ pub(super) fn decimal(m: i32, exponent: i32) -> f64 {
     format!("{m}e{exponent}").parse().unwrap_or(f64::MIN_POSITIVE)
 }
 
-/// Returns a positive number as n · 10^power, rounded to twelve digits; none if it is not finite.
+/// Returns a positive number as n · 10^power, rounded to twelve digits, or `None` if not finite.
 fn decimal_of(number: f64) -> Option<(i128, i32)> {
     let Decimal { digits, places } = Decimal::exact(number).significant(12);
     let kept = digits.trim_end_matches('0');

@@ -42,7 +42,7 @@ impl Frame {
     }
 }
 
-/// The inside of a shape: its colour, and its opacity in hundredths; none if it is clear.
+/// The inside of a shape: its colour, and its opacity in hundredths, or `None` if it is clear.
 pub type Fill = Option<(RGBColor, u8)>;
 
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -115,7 +115,7 @@ impl Drawing {
         Ok(())
     }
 
-    /// Tells whether a rectangle is free of lines, symbols and words from left to right.
+    /// Returns whether a rectangle is free of lines, symbols and words from left to right.
     pub fn is_free(&self, frame: Frame) -> bool {
         self.elements.iter().all(|element| match element {
             Element::Shape(path, _, Some(_)) => !crosses(path, frame),
@@ -254,7 +254,7 @@ impl DrawingBackend for Drawing {
     }
 }
 
-/// Tells whether a letter of a label stands in a frame; each is taken to be half an em wide.
+/// Returns whether a letter of a label stands in a frame; each is taken to be half an em wide.
 fn stands_in(label: &Label, frame: Frame) -> bool {
     let scaled = |units: i32| units * label.size / font::EM;
     label.glyphs.iter().any(|placed| {
@@ -264,7 +264,7 @@ fn stands_in(label: &Label, frame: Frame) -> bool {
     })
 }
 
-/// Tells whether a path enters a frame; curves count as their chords.
+/// Returns whether a path enters a frame; curves count as their chords.
 fn crosses(path: &[Step], frame: Frame) -> bool {
     let float = |(x, y): Point| (f64::from(x), f64::from(y));
     let across = float((frame.left, frame.right));

@@ -1,5 +1,5 @@
 //! Adds the elements that plotters lacks: lines with a pattern of dashes, arrows, symbols with an
-//! edge, dense ticks, and error bars of caps alone.
+//! edge, and dense ticks.
 
 use super::drawing::{Drawing, Outcome};
 use super::path::{Point, Step, circle, polygon, polyline};
@@ -51,7 +51,7 @@ impl<C> Drawable<Drawing> for CustomElement<C> {
     }
 }
 
-/// Draws a line through points: an element of plotters if it is solid.
+/// Makes a line through points: an element of plotters if it is solid.
 pub fn line<C: Clone + 'static>(points: Vec<C>, stroke: Stroke) -> DynElement<'static, Drawing, C> {
     if stroke.dash == SOLID {
         return PathElement::new(points, stroke).into_dyn();
@@ -64,26 +64,30 @@ pub fn line<C: Clone + 'static>(points: Vec<C>, stroke: Stroke) -> DynElement<'s
     CustomElement::new(points, dashed).into_dyn()
 }
 
-/// Draws upright ticks of a width at points, as high as the stroke is thick; those in one row that
+/// Makes ticks at points, `width` wide and as high as the stroke is thick; those in one row that
 /// touch are one stroke.
 pub fn ticks<C>(points: Vec<C>, width: i32, stroke: Stroke) -> CustomElement<C> {
-    CustomElement::new(points, move |drawing, points| {
-        let mut places: Vec<Point> = points.into_iter().map(|(x, y)| (y, x)).collect();
-        places.sort_unstable();
-        for run in places.chunk_by(|a, b| a.0 == b.0 && b.1 - a.1 <= width) {
-            let (y, left) = (run[0].0, run[0].1 - width / 2);
-            let right = run[run.len() - 1].1 - width / 2 + width;
+    CustomElement::new(points, move |drawing, mut points| {
+        points.sort_unstable_by_key(|&(x, y)| (y, x));
+        for run in points.chunk_by(|(x, y), (next_x, next_y)| y == next_y && next_x - x <= width) {
+            let [(first_x, y), (last_x, _)] = [run[0], run[run.len() - 1]];
+            let (left, right) = (first_x - width / 2, last_x - width / 2 + width);
             drawing.draw_line((left, y), (right, y), &ShapeStyle::from(stroke))?;
         }
         Ok(())
     })
 }
 
-/// Draws a solid line that ends in an arrow head, inside it. A short last stretch must not turn the
+/// Length of an arrow head and half its width, in hundredths of a millimetre, and how much a unit
+/// of the width of its line adds to each.
+const HEAD: [f64; 2] = [90.0, 34.0];
+const HEAD_GROWTH: [f64; 2] = [2.6, 1.1];
+
+/// Makes a solid line that ends in an arrow head, inside it. A short last stretch must not turn the
 /// head, so its direction is taken over at least its length.
 pub fn arrow<C>(points: Vec<C>, stroke: Stroke) -> CustomElement<C> {
     let width = f64::from(stroke.width);
-    let (length, half) = (90.0 + 2.6 * width, 34.0 + 1.1 * width);
+    let [length, half] = [0, 1].map(|i| HEAD[i] + HEAD_GROWTH[i] * width);
     CustomElement::new(points, move |drawing, mut path| {
         let Some(&tip) = path.last() else { return Ok(()) };
         let to_tip = |p: &Point| {
@@ -110,7 +114,7 @@ pub fn arrow<C>(points: Vec<C>, stroke: Stroke) -> CustomElement<C> {
     })
 }
 
-/// Draws equal symbols at points, as one path, whose edge is solid.
+/// Makes equal symbols at points, as one path, whose edge is solid.
 pub fn markers<C>(points: Vec<C>, (symbol, r, line): Marker) -> CustomElement<C> {
     let stroke = Stroke::solid(line.colour, line.width);
     CustomElement::new(points, move |drawing, points| {

@@ -147,10 +147,9 @@ fn spread(heights: &[i32], least: i32, (top, bottom): (i32, i32)) -> Option<Vec<
 }
 
 impl Panel {
-    /// Returns the panel with a data file whose name is the figure's id and this.
-    pub fn with_suffix(self, suffix: &str) -> Self {
+    /// Ends the name of the panel's data file, which begins with the figure's id.
+    pub fn set_suffix(&self, suffix: &str) {
         self.record.borrow_mut().suffix = suffix.replace(['(', ')'], "");
-        self
     }
 
     /// Returns the panel without a record, for what is no data: repeated outlines, details.
@@ -215,7 +214,7 @@ impl Panel {
 
     /// Writes the letter of a panel, "(a)", above it, and ends the name of its data file with it.
     fn letter(&self, text: &str) -> Drawn {
-        self.clone().with_suffix(text);
+        self.set_suffix(text);
         let at = (self.frame.left + 60, self.frame.top - 80);
         self.text_on_sheet(text, at, words(TEXT, INK, HPos::Left, VPos::Bottom))
     }
@@ -267,7 +266,7 @@ impl Panel {
         self.label(text, at, free.unwrap_or(offset), colour)
     }
 
-    /// Tells whether words of a size have room at an offset from a point of the sheet.
+    /// Returns whether words of a size have room at an offset from a point of the sheet.
     fn has_room(&self, (x, y): Point, size: (i32, i32), (right, down): (i32, i32)) -> bool {
         // From the point to the near edge of the words, less their size if they end there.
         let start = |place: i32, size: i32, millimetres: i32| {

@@ -44,7 +44,7 @@ pub fn circle((x, y): Point, r: i32) -> Vec<Step> {
 }
 
 /// Returns the parameters between which the stretch from `a` to `b` lies in the rectangle of these
-/// ends (Liang and Barsky 1984); none if it does not.
+/// ends (Liang and Barsky 1984), or `None` if it does not.
 pub fn inside(a: (f64, f64), b: (f64, f64), x: (f64, f64), y: (f64, f64)) -> Option<(f64, f64)> {
     let (dx, dy) = (b.0 - a.0, b.1 - a.1);
     let (mut start, mut end) = (0.0_f64, 1.0_f64);

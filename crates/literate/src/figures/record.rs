@@ -74,7 +74,7 @@ impl Record {
         }
     }
 
-    /// Returns the panel's data file; none if it has no data.
+    /// Returns the panel's data file, or `None` if it has no data.
     pub(super) fn file(&self) -> Option<DataFile> {
         let mut points = Vec::new();
         for (name, rows) in &self.series {

@@ -127,7 +127,7 @@ pub fn rimmed(size: i32, colour: RGBColor, h: HPos, v: VPos) -> TextStyle<'stati
     FontDesc::from(("rimmed", size)).color(&colour).pos(Pos::new(h, v))
 }
 
-/// Tells whether a style is one of [`rimmed`].
+/// Returns whether a style is one of [`rimmed`].
 pub(super) fn is_rimmed(style: &impl BackendTextStyle) -> bool {
     style.family().as_str() == "rimmed"
 }

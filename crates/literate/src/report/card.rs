@@ -27,36 +27,36 @@ impl Card {
         Card { id, title, lead: String::new(), rows: Vec::new() }
     }
 
-    fn row(&mut self, name: &'static str, text: Vec<Inline>) {
+    fn add_row(&mut self, name: &'static str, text: Vec<Inline>) {
         if !text.is_empty() {
             self.rows.push((name, text));
         }
     }
 
-    fn words(&mut self, name: &'static str, text: &str) {
-        self.row(name, words_and_maths(text));
+    fn add_words(&mut self, name: &'static str, text: &str) {
+        self.add_row(name, words_and_maths(text));
     }
 
-    fn item(&mut self, name: &'static str, item: &str, project: &Project) {
+    fn add_item(&mut self, name: &'static str, item: &str, project: &Project) {
         if !item.is_empty() {
-            self.row(name, vec![link_to_line(item, project)]);
+            self.add_row(name, vec![link_to_line(item, project)]);
         }
     }
 
     /// Ends a card with the command of the program that makes what it shows again.
-    fn repeat(&mut self, command: &str, project: &Project) {
+    fn add_command(&mut self, command: &str, project: &Project) {
         let line = format!("{} {command}", project.sources.name);
-        self.row("repeat it", vec![Inline::Code(line)]);
+        self.add_row("repeat it", vec![Inline::Code(line)]);
     }
 
-    fn experiment(&mut self, name: &str, cards: &Cards<'_>) {
+    fn add_experiment(&mut self, name: &str, cards: &Cards<'_>) {
         let mut experiments = cards.experiments.iter();
         let Some(experiment) = experiments.find(|one| one.name() == name) else { return };
-        self.item("experiment", &experiment.item(), cards.project);
+        self.add_item("experiment", &experiment.item(), cards.project);
         let profile = cards.values.profile().unwrap_or(Profile::Full);
         let parameters = experiment.parameters(profile).unwrap_or_default();
         for (number, setting) in settings(&parameters).iter().enumerate() {
-            self.words(if number == 0 { "its parameters" } else { "" }, setting);
+            self.add_words(if number == 0 { "its parameters" } else { "" }, setting);
         }
     }
 }
@@ -126,30 +126,31 @@ impl Cards<'_> {
         let mut card = Card { lead: first_sentence(value), ..Card::new(value.id.clone(), title) };
         if matches!(value.number, Number::Real { .. }) {
             let full = Style { digits: Some(Digits::Full), ..Style::default() };
-            card.words("in full", &print(&value.number, full).to_plain_text());
+            card.add_words("in full", &print(&value.number, full).to_plain_text());
         }
         if let Provenance::Ensemble { realisations, standard_error, .. } = &value.kind {
-            card.words("standard error", &standard_error.to_string());
+            card.add_words("standard error", &standard_error.to_string());
             if *realisations > 0 {
-                card.words("realisations", &realisations.to_string());
+                card.add_words("realisations", &realisations.to_string());
             }
         }
         if let Provenance::Printed { place } = &value.kind {
-            card.words("place", place);
+            card.add_words("place", place);
         }
-        card.item("computed by", &value.source, self.project);
+        card.add_item("computed by", &value.source, self.project);
+        // Two paths of one item: the home was written by `stringify!`, the source by `type_name`.
         let home = self.ledger.equations.iter().find(|equation| equation.home == value.source);
         if let Some(number) = home.map(|equation| equation.number) {
             let (to, label) = (format!("eq:{number}"), format!("Eq.\u{a0}({number})"));
-            card.row("equation", vec![Inline::Reference { to, within: None, label }]);
+            card.add_row("equation", vec![Inline::Reference { to, within: None, label }]);
         }
         let mut data = vec!["values.json".to_string()];
         data.extend(table_name(&value.id).map(|t| format!("data/{}", DataFile::file_name(t))));
-        card.row("data", links(&data));
-        card.row("id", vec![Inline::Code(value.id.clone())]);
-        card.experiment(&value.experiment, self);
+        card.add_row("data", links(&data));
+        card.add_row("id", vec![Inline::Code(value.id.clone())]);
+        card.add_experiment(&value.experiment, self);
         if !value.experiment.is_empty() {
-            card.repeat(&format!("paper --rerun {}", value.experiment), self.project);
+            card.add_command(&format!("paper --rerun {}", value.experiment), self.project);
         }
         Some(card)
     }
@@ -161,14 +162,14 @@ impl Cards<'_> {
             figures.find(|f| is_asked(&f.label) || is_asked(&format!("fig:{}", f.number)))?;
         let title = vec![Inline::Text(figure.title.clone())];
         let mut card = Card::new(figure.label.clone(), title);
-        card.words("shows", &figure.description);
-        card.row("picture", links([&figure.picture]));
-        card.row("data", links(&figure.data));
-        card.item("drawn by", &figure.source, self.project);
+        card.add_words("shows", &figure.description);
+        card.add_row("picture", links([&figure.picture]));
+        card.add_row("data", links(&figure.data));
+        card.add_item("drawn by", &figure.source, self.project);
         for name in &figure.experiments {
-            card.experiment(name, self);
+            card.add_experiment(name, self);
         }
-        card.repeat(&format!("paper --figure {}", figure.number), self.project);
+        card.add_command(&format!("paper --figure {}", figure.number), self.project);
         Some(card)
     }
 
@@ -177,14 +178,14 @@ impl Cards<'_> {
         let title = words_and_maths(&equation.what);
         let mut card = Card::new(format!("eq:{number}"), title);
         card.lead = format!("Equation ({number}).");
-        card.words("stands in", &format!("Sec. {}", equation.section));
-        card.item("home", &equation.home, self.project);
+        card.add_words("stands in", &format!("Sec. {}", equation.section));
+        card.add_item("home", &equation.home, self.project);
         if let Some(towards) = &equation.step_towards {
-            card.words("is", &format!("a step towards {towards}"));
+            card.add_words("is", &format!("a step towards {towards}"));
         }
         let values = self.values.iter().filter(|value| value.source == equation.home);
         let values: Vec<&str> = values.map(|value| value.id.as_str()).collect();
-        card.words("values", &values.join(", "));
+        card.add_words("values", &values.join(", "));
         Some(card)
     }
 
@@ -196,16 +197,16 @@ impl Cards<'_> {
         let [first, rest] = [words.get(..1), words.get(1..)].map(Option::unwrap_or_default);
         let why = claim.difference().map_or_else(String::new, |why| format!(" ({why})"));
         card.lead = format!("{}{rest}{why}.", first.to_uppercase());
-        card.words("paper", &with_formulas(&claim.expected));
-        card.words("here", &with_formulas(&claim.found.to_string()));
-        card.words("tolerance", &with_formulas(&claim.tolerance.to_string()));
-        card.words("because", &with_formulas(&claim.reason));
-        card.words("note", &with_formulas(&claim.note.to_string()));
-        card.words("stands in", &claim.place);
-        card.item("judged by", &(self.edition.judged_by)(&claim.id), self.project);
+        card.add_words("paper", &with_formulas(&claim.expected));
+        card.add_words("here", &with_formulas(&claim.found.to_string()));
+        card.add_words("tolerance", &with_formulas(&claim.tolerance.to_string()));
+        card.add_words("because", &with_formulas(&claim.reason));
+        card.add_words("note", &with_formulas(&claim.note.to_string()));
+        card.add_words("stands in", &claim.place);
+        card.add_item("judged by", &(self.edition.judged_by)(&claim.id), self.project);
         let (to, label) = (card.id.clone(), "the row of this statement".into());
-        card.row("ledger", vec![Inline::Reference { to, within: None, label }]);
-        card.repeat(&format!("check {}", claim.id), self.project);
+        card.add_row("ledger", vec![Inline::Reference { to, within: None, label }]);
+        card.add_command(&format!("check {}", claim.id), self.project);
         Some(card)
     }
 }
@@ -241,16 +242,16 @@ pub(super) fn link_to_line(item: &str, project: &Project) -> Inline {
 
 /// Says what the number means, then what kind of number it is and where it comes from.
 fn first_sentence(value: &Value) -> String {
-    let Some(first) = value.note.chars().next() else { return kind(value) };
+    let Some(first) = value.note.chars().next() else { return kind_in_words(value) };
     // A name as σ begins no sentence.
     let meaning = match value.note.split_at(first.len_utf8()) {
         (first, rest) if rest.starts_with(char::is_alphabetic) => first.to_uppercase() + rest,
         _ => format!("The {}", value.note),
     };
-    format!("{}. {}", meaning.trim_end_matches('.'), kind(value))
+    format!("{}. {}", meaning.trim_end_matches('.'), kind_in_words(value))
 }
 
-fn kind(value: &Value) -> String {
+fn kind_in_words(value: &Value) -> String {
     let computed = match &value.kind {
         Provenance::Exact => "Computed exactly".into(),
         Provenance::Deterministic => "Computed without chance".into(),

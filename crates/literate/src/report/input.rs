@@ -22,7 +22,7 @@ pub struct Input<'a> {
     pub figures: &'a [Figure],
     /// What a page loads when a reader asks it to compute: lab.js.
     pub lab: Option<&'a str>,
-    /// The path from the folder of the report to the project, `../`; none if it lies elsewhere.
+    /// The path from the report's folder to the project, `../`, or `None` if it lies elsewhere.
     pub top: Option<&'a str>,
     pub edition: &'a Edition,
     pub project: &'a Project,

@@ -55,7 +55,7 @@ impl Registry {
     /// Shortens the paths of items to what documents show.
     pub fn shorten(&mut self, sources: &Sources) {
         for value in self.values.values_mut() {
-            value.source = sources.short(&value.source).to_string();
+            value.source = sources.shorten(&value.source).to_string();
         }
     }
 

@@ -11,7 +11,7 @@ use std::rc::Rc;
 pub struct Building<'a, R> {
     rows: &'a [R],
     number: Rc<dyn Fn(&R) -> usize + 'a>,
-    /// What computed the cells, if that is not the code of their column.
+    /// What computed the numbers, if that is not the code of their columns.
     origin: Option<Origin>,
     table: Table,
 }
@@ -45,10 +45,11 @@ impl<'a, R> Building<'a, R> {
         mut self,
         (name, unit): (&'static str, &'static str),
         meaning: &str,
+        item: Option<Origin>,
         get: F,
         cell: impl Fn(&R, T) -> (Number, Provenance),
     ) -> Self {
-        let item = self.origin.clone().unwrap_or_else(origin_of::<F>);
+        let item = item.unwrap_or_else(origin_of::<F>);
         let experiment = self.table.name.split('.').next().unwrap_or_default();
         self.table.columns.push(Column { name, unit });
         for (row, (_, cells)) in self.rows.iter().zip(&mut self.table.rows) {
@@ -61,14 +62,32 @@ impl<'a, R> Building<'a, R> {
     }
 
     /// Sets how many realisations the columns that follow are computed from.
-    pub fn over(mut self, number: impl Fn(&R) -> usize + 'a) -> Self {
+    pub fn next_columns_over(mut self, number: impl Fn(&R) -> usize + 'a) -> Self {
         self.number = Rc::new(number);
         self
     }
 
-    /// Sets the item that computed the columns that follow.
-    pub fn computed_by(mut self, item: Origin) -> Self {
+    /// Sets the item that computed the table's estimates, reals and counts, but those that
+    /// [`Building::computed_by`] names.
+    pub fn table_computed_by(mut self, item: Origin) -> Self {
+        if !self.table.columns.is_empty() {
+            self.fault("table_computed_by stands after columns; put it first".into());
+        }
         self.origin = Some(item);
+        self
+    }
+
+    /// Sets the item that computed the columns of these names, which stand before it.
+    pub fn computed_by(mut self, item: Origin, names: &[&str]) -> Self {
+        for name in names {
+            let Some(place) = self.table.names().position(|column| column == *name) else {
+                self.fault(format!("computed_by names no column before it: {name}"));
+                continue;
+            };
+            for (_, cells) in &mut self.table.rows {
+                cells[place].source.clone_from(&item.0);
+            }
+        }
         self
     }
 
@@ -109,8 +128,8 @@ impl<'a, R> Building<'a, R> {
         meaning: &str,
         get: F,
     ) -> Self {
-        let number = self.number.clone();
-        self.put((name, unit), meaning, get, |row, estimate| match estimate.map(E::into) {
+        let (number, item) = (self.number.clone(), self.origin.clone());
+        self.put((name, unit), meaning, item, get, |row, estimate| match estimate.map(E::into) {
             Some(Sampled { estimate, sample }) => {
                 let (realisations, standard_error) = (number(row) as u64, estimate.error);
                 (estimate.into(), Provenance::Ensemble { realisations, standard_error, sample })
@@ -129,8 +148,8 @@ impl<'a, R> Building<'a, R> {
         meaning: &str,
         get: F,
     ) -> Self {
-        let digits = Digits::Significant(digits);
-        self.put((name, unit), meaning, get, |_, value| match value.into() {
+        let (digits, item) = (Digits::Significant(digits), self.origin.clone());
+        self.put((name, unit), meaning, item, get, |_, value| match value.into() {
             Some(value) => (Number::Real { value, digits }, Provenance::Deterministic),
             None => (Number::None, Provenance::Exact),
         })
@@ -142,11 +161,11 @@ impl<'a, R> Building<'a, R> {
         meaning: &str,
         get: F,
     ) -> Self {
-        self.put((name, "text"), meaning, get, |_, words| (words.into(), Provenance::Exact))
+        self.put((name, "text"), meaning, None, get, |_, words| (words.into(), Provenance::Exact))
     }
 
     /// Marks all cells so far as measured, which makes them an input of the paper.
-    pub fn measured(mut self) -> Self {
+    pub fn all_measured(mut self) -> Self {
         for cell in self.table.rows.iter_mut().flat_map(|(_, cells)| cells) {
             cell.kind = Provenance::Measured;
         }
@@ -161,12 +180,13 @@ impl<'a, R> Building<'a, R> {
         meaning: &str,
         get: F,
     ) -> Self {
-        self.put((name, unit), meaning, get, |_, chosen| (chosen.into(), Provenance::Deterministic))
+        self.put((name, unit), meaning, None, get, |_, x| (x.into(), Provenance::Deterministic))
     }
 
     /// Adds a count, shown as an integer up to a million and with its leading digits beyond.
     pub fn count<F: Fn(&R) -> u64>(self, name: &'static str, meaning: &str, get: F) -> Self {
-        self.put((name, "1"), meaning, get, |_, n| match n {
+        let item = self.origin.clone();
+        self.put((name, "1"), meaning, item, get, |_, n| match n {
             ..1_000_000 => (n.into(), Provenance::Exact),
             _ => (Number::from(n).significant(2), Provenance::Deterministic),
         })

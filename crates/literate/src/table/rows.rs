@@ -17,7 +17,7 @@ pub struct Table {
     /// For each row its address within the table (`r=0.8,sigma=0.3`), and its cells.
     pub(super) rows: Vec<(String, Vec<Value>)>,
     pub(super) place: &'static Location<'static>,
-    pub(super) fault: Option<String>,
+    pub(crate) fault: Option<String>,
 }
 
 /// What all cells below one another are.
@@ -39,10 +39,6 @@ impl Table {
     /// Returns where the source makes it: `src/file.rs:12`.
     pub fn place(&self) -> String {
         source_line(self.place)
-    }
-
-    pub(crate) fn fault(&self) -> Option<&str> {
-        self.fault.as_deref()
     }
 
     /// Returns the cell with this address, in which `first` and `last` may stand for values of a
@@ -168,10 +164,6 @@ impl Table {
         (column >= self.keys && table != *self).then_some(table)
     }
 
-    pub(crate) fn width(&self) -> usize {
-        self.columns.len()
-    }
-
     pub(crate) fn names(&self) -> impl Iterator<Item = &'static str> {
         self.columns.iter().map(|column| column.name)
     }
@@ -259,7 +251,7 @@ mod tests {
     use super::super::{DataFile, Tables, find_cell, table_name};
     use super::*;
     use crate::sample::Sample;
-    use crate::value::Provenance;
+    use crate::value::{Origin, Provenance};
     use std::sync::Arc;
 
     fn mean(row: &(f64, f64, Vec<f64>)) -> Option<Estimate> {
@@ -299,6 +291,15 @@ mod tests {
         assert_eq!(source, "literate::table::rows::tests::table");
         assert_eq!(cell_at("test.rise[r=0.8,sigma=0.1].inverse").unit, r"$1/\omega$");
         assert_eq!(cell_at("test.rise[r=0.8,sigma=0.1].sigma").unit, r"$d \omega^2$");
+    }
+
+    #[test]
+    fn a_column_without_an_origin_has_that_of_its_table() {
+        let table =
+            Table::builder("test.x", &[2.0], |_| 1).table_computed_by(Origin("table".into()));
+        let table = table.real("x", "1", 1, "", |x| *x).computed_by(Origin("x".into()), &["x"]);
+        let table = table.real("y", "1", 1, "", |x| -x).done();
+        assert!(table.cells().map(|cell| cell.source.as_str()).eq(["x", "table"]));
     }
 
     #[test]
@@ -346,6 +347,7 @@ mod tests {
         let twice = one(&[1.0, 1.0]).done();
         let columns = one(&[1.0]).chosen("x", "1", "", |_| 1.0).count("x", "", |_| 2).done();
         let late = one(&[1.0]).chosen("x", "1", "", |_| 1.0).key("s", "1", |row| *row).done();
+        let unknown = one(&[1.0]).computed_by(Origin("f".into()), &["x"]).done();
         let nan = one(&[1.0, 0.0]).real("x", "1", 3, "", |row| 1.0 / row).done();
         let [error, negative] = [f64::NAN, -0.5].map(|error| {
             let estimate = Estimate { value: 1.0, error, interval: [0.0; 2] };
@@ -355,6 +357,7 @@ mod tests {
             (twice, "two rows have the keys [r=1]"),
             (columns, "two columns have the name x"),
             (late, "the key s stands after other columns"),
+            (unknown, "computed_by names no column before it: x"),
             (nan, "test.bad[r=0].x is inf; "),
             (error, "test.bad[r=1].x is 1(NaN)"),
             (negative, "test.bad[r=1].x is 1(-0.5)"),

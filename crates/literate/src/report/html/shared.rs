@@ -20,37 +20,37 @@ const FONTS: [(&str, &[u8]); 4] = [
     ("LibertinusMath-Regular", include_bytes!("../../../fonts/LibertinusMath-Regular.woff2")),
 ];
 
-/// Returns fonts, and cards as a script, since a page on a disk can load nothing else.
+/// Returns fonts, and cards of values as a script: a page on a disk can load nothing else.
 pub fn files(
-    values: &BTreeSet<String>,
+    ids: &BTreeSet<String>,
     cards: &Cards<'_>,
     input: &Input<'_>,
     labels: &Labels,
 ) -> Result<Files, Error> {
     let page = Page::new(input);
-    let (mut rows, mut places, mut cards_by_id) = (Vec::new(), BTreeMap::new(), BTreeMap::new());
-    let made: Vec<Option<Card>> = values.par_iter().map(|id| cards.get(id)).collect();
-    for (id, card) in values.iter().zip(made) {
+    let (mut rows, mut indices, mut cards_by_id) = (Vec::new(), BTreeMap::new(), BTreeMap::new());
+    let made: Vec<Option<Card>> = ids.par_iter().map(|id| cards.get(id)).collect();
+    for (id, card) in ids.iter().zip(made) {
         let unknown = || Error::Template(format!("there is no value {id}"));
         let card = card.ok_or_else(unknown)?;
-        let mut numbers = Vec::new();
+        let mut row_indices = Vec::new();
         for (name, text) in &card.rows {
-            let place = |inline: &Inline| match inline.clone() {
+            let resolved = |inline: &Inline| match inline.clone() {
                 Inline::Reference { to, label, .. } => {
                     let within = labels.get(&to).map(|label| label.document);
                     vec![Inline::Reference { to, within, label }]
                 }
                 other => document::relative_link(other, input.top),
             };
-            let words: Vec<Inline> = text.iter().flat_map(place).collect();
+            let words: Vec<Inline> = text.iter().flat_map(resolved).collect();
             let name = if name.is_empty() { "" } else { &format!("<dt>{name}</dt>") };
             let row = format!("{name}<dd>{}</dd>", page.inlines(&words));
-            numbers.push(*places.entry(row.clone()).or_insert_with(|| {
+            row_indices.push(*indices.entry(row.clone()).or_insert_with(|| {
                 rows.push(row);
                 rows.len() - 1
             }));
         }
-        cards_by_id.insert(id, (page.inlines(&card.title), escape(&card.lead), numbers));
+        cards_by_id.insert(id, (page.inlines(&card.title), escape(&card.lead), row_indices));
     }
     Error::check(page.errors.into_inner())?;
     let json = serde_json::to_string(&(rows, cards_by_id)).unwrap_or_default();

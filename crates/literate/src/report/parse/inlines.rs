@@ -6,7 +6,7 @@ use super::super::lint;
 use super::super::mark::{self, Piece, pieces};
 use super::super::tex;
 use super::brackets::bracketed;
-use super::{ALONE, ELSE, Reader, fault, is_block};
+use super::{FIGURE_NOT_ALONE, Reader, UNSUPPORTED_MARKUP, fault, is_block};
 use crate::experiments::Profile;
 use crate::input::one_line;
 use crate::print::{Printed, print};
@@ -23,7 +23,7 @@ impl Reader<'_> {
         };
         while let Some((event, range)) = self.events.next_if(|(event, _)| !ends(event)) {
             let start = range.start;
-            let outcome = self.inline(event, range, &mut inlines);
+            let outcome = self.read_inline(event, range, &mut inlines);
             outcome.map_err(|error| error.with_place(self.filled.place(start)))?;
         }
         Ok(inlines)
@@ -40,7 +40,8 @@ impl Reader<'_> {
         Ok(inlines)
     }
 
-    fn inline(
+    /// Adds what an event begins to the running text, up to its end.
+    fn read_inline(
         &mut self,
         event: Event<'_>,
         range: Range<usize>,
@@ -52,13 +53,13 @@ impl Reader<'_> {
                 let is_digits =
                     |(_, numeral): &(usize, String)| numeral.starts_with(|c: char| c.is_numeric());
                 let numbers = lint::find_numbers(&self.filled.text, range, self.declared);
-                self.hard_coded(numbers.into_iter().filter(is_digits));
+                self.note_hard_coded(numbers.into_iter().filter(is_digits));
                 Inline::Code(self.to_plain_text(&code)?)
             }
             Event::InlineMath(_) if self.depth_without_formulas > 0 => {
                 return Err(fault("GitHub renders no formula in emphasis or a link; move it out"));
             }
-            Event::InlineMath(_) if self.filled.text[..range.start].ends_with(touches) => {
+            Event::InlineMath(_) if self.filled.text[..range.start].ends_with(forbids_formula) => {
                 return Err(fault("a formula right after a word or a number needs a space"));
             }
             Event::InlineMath(tex) => {
@@ -71,12 +72,12 @@ impl Reader<'_> {
             }
             Event::SoftBreak => Inline::Soft,
             Event::Start(tag) => self.span(tag, range)?,
-            _ => return Err(fault(ELSE)),
+            _ => return Err(fault(UNSUPPORTED_MARKUP)),
         });
         Ok(())
     }
 
-    fn hard_coded(&mut self, numbers: impl IntoIterator<Item = (usize, String)>) {
+    fn note_hard_coded(&mut self, numbers: impl IntoIterator<Item = (usize, String)>) {
         for (offset, numeral) in numbers {
             if self.filled.is_typed(offset) {
                 self.note_error(offset, Error::HardCoded(numeral));
@@ -84,7 +85,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Notes a hard-coded number in a formula, in which what tags wrote counts as a letter.
+    /// Notes a hard-coded number in a formula, where characters written by a tag count as letters.
     fn check_numbers(&mut self, range: &Range<usize>) {
         let tex = self.source(range).trim_start_matches('$');
         let begin = range.end - tex.len();
@@ -92,12 +93,12 @@ impl Reader<'_> {
         let typed = |(i, c)| if self.filled.is_typed(begin + i) { c } else { 'x' };
         let tex: String = tex.char_indices().map(typed).collect();
         let number = lint::number_in_formula(&tex);
-        self.hard_coded(number.map(|numeral| (range.start, numeral)));
+        self.note_hard_coded(number.map(|numeral| (range.start, numeral)));
         self.check_values(range, true);
     }
 
     /// Notes what beside a value changes its unit or sign, and digits that drop its error.
-    fn check_values(&mut self, range: &Range<usize>, maths: bool) {
+    fn check_values(&mut self, range: &Range<usize>, is_maths: bool) {
         let (filled, values) = (self.filled, self.values);
         let (source, mut offset) = (&filled.text, range.start);
         for piece in pieces(&source[range.clone()]) {
@@ -113,13 +114,13 @@ impl Reader<'_> {
             if let Some(value) = values.get(&id) {
                 let has_error =
                     |digits: &Digits| matches!(digits, Digits::Error(_)) && style.digits.is_some();
-                let drops =
+                let drops_error =
                     matches!(&value.number, Number::Real { digits, .. } if has_error(digits));
                 let problem =
                     format!("«{id}» has a standard error, which `significant` drops; leave it out");
                 let beside =
-                    || lint::conflict(&source[..offset], &source[end..], value, style, maths);
-                if let Some(problem) = drops.then_some(problem).or_else(beside) {
+                    || lint::conflict(&source[..offset], &source[end..], value, style, is_maths);
+                if let Some(problem) = drops_error.then_some(problem).or_else(beside) {
                     self.note_error(offset, Error::Template(problem));
                 }
             }
@@ -133,7 +134,7 @@ impl Reader<'_> {
         {
             while !matches!(self.events.next(), None | Some((Event::End(_), _))) {}
             if *link_type == LinkType::ShortcutUnknown {
-                return self.reference(dest_url, range.start);
+                return self.read_reference(dest_url, range.start);
             }
             let to = self.to_plain_text(dest_url)?;
             return Ok(Inline::Link { to: to.clone(), words: vec![Inline::Text(to)] });
@@ -154,15 +155,15 @@ impl Reader<'_> {
                 self.places.add(Thing::Link(to.clone()), range.start);
                 Inline::Link { to, words }
             }
-            Tag::Image { .. } => return Err(fault(ALONE)),
-            _ => return Err(fault(ELSE)),
+            Tag::Image { .. } => return Err(fault(FIGURE_NOT_ALONE)),
+            _ => return Err(fault(UNSUPPORTED_MARKUP)),
         })
     }
 
     /// Reads what stands between brackets: `@fig:2; @fig:3` or `!claim:rise`.
-    fn reference(&mut self, reference: &str, offset: usize) -> Result<Inline, Error> {
+    fn read_reference(&mut self, reference: &str, offset: usize) -> Result<Inline, Error> {
         if let Some(id) = reference.strip_prefix('!') {
-            self.id("claim", id, offset)?;
+            self.add_id("claim", id, offset)?;
             return Ok(Inline::Anchor { id: id.to_string(), number: String::new() });
         }
         let is_id = |id: &&str| !id.is_empty() && !id.contains([',', ' ', '\n', '@']);
@@ -190,7 +191,7 @@ impl Reader<'_> {
         let cut = if !id_at.is_empty() {
             Some(id_at.clone())
         } else if *text == source[part.clone()] {
-            mentioned(source, part.clone())
+            find_citation(source, part.clone())
         } else {
             None
         };
@@ -206,13 +207,14 @@ impl Reader<'_> {
             return self.read_text(after, cut.end..part.end, inlines);
         }
         if let Some((offset, problem)) = leftover(source, part.start, text)
-            && offset >= self.quiet_until
+            && offset >= self.end_of_cut_formula
         {
-            self.quiet_until = offset + source[offset..].find("\n\n").unwrap_or(source.len());
-            let problem = if self.filled.is_typed(offset) { problem } else { GROUP };
+            self.end_of_cut_formula =
+                offset + source[offset..].find("\n\n").unwrap_or(source.len());
+            let problem = if self.filled.is_typed(offset) { problem } else { GROUP_AS_VALUE };
             return Err(fault(problem).with_place(self.filled.place(offset)));
         }
-        self.hard_coded(lint::find_numbers(source, part.clone(), self.declared));
+        self.note_hard_coded(lint::find_numbers(source, part.clone(), self.declared));
         self.check_values(&part, false);
         // A backslash before a backslash is meant.
         let escaped = usize::from(source[..part.start].ends_with('\\') && text.starts_with('\\'));
@@ -252,7 +254,7 @@ impl Reader<'_> {
         }
         let tex = formula.to_tex();
         if tex.contains(['«', '»', '`']) {
-            return Err(fault(LEFTOVER));
+            return Err(fault(UNCLOSED_MARKUP));
         }
         let is_index = |pair: &[Part]| matches!(pair, [Part::Tex(tex), Part::Value { .. }] if tex.ends_with(['^', '_']));
         let bare_index = "a value used as an index must stand in braces {…}";
@@ -275,7 +277,7 @@ impl Reader<'_> {
             behind.trim_start_matches(' ').strip_prefix("{#").and_then(|id| id.split_once('}'));
         if let Some((id, rest)) = id {
             self.id_at = range.end..self.filled.text.len() - rest.len();
-            self.id("eq", id, range.start)?;
+            self.add_id("eq", id, range.start)?;
         }
         let mut id = id.map(|(id, _)| id.to_string());
         let (mut tex, mut number) = (tex.to_string(), String::new());
@@ -283,7 +285,7 @@ impl Reader<'_> {
             let (tag, after) =
                 after.split_once('}').ok_or_else(|| fault(r"a \tag{ that is not closed"))?;
             let tag_id = format!("eq:{tag}");
-            self.id("eq", &tag_id, range.start)?;
+            self.add_id("eq", &tag_id, range.start)?;
             (id, number, tex) = (Some(tag_id), tag.into(), format!("{}{}", before.trim(), after));
         }
         let formula = self.formula(tex.trim(), range.start)?;
@@ -315,21 +317,21 @@ impl Reader<'_> {
 
 /// Returns whether a formula cannot follow: GitHub renders one only after a space or an opening
 /// bracket.
-fn touches(c: char) -> bool {
+fn forbids_formula(c: char) -> bool {
     c.is_alphanumeric() || ")]$".contains(c) || c == mark::CLOSE
 }
 
-const LEFTOVER: &str = "unclosed markup; complete it, or write a backslash before a sign that is \
+const UNCLOSED_MARKUP: &str = "unclosed markup; complete it, or write a backslash before a sign that is \
      meant literally";
 
-const GROUP: &str = "a group or a row is named where a value is meant; name the value whole, as \
+const GROUP_AS_VALUE: &str = "a group or a row is named where a value is meant; name the value whole, as \
      table[\"row\"].column";
 
-const CUT: &str = "an unclosed formula: Markdown ends it at an empty line, and at a line that begins \
+const UNCLOSED_FORMULA: &str = "an unclosed formula: Markdown ends it at an empty line, and at a line that begins \
      with +, -, *, #, >, = or 1.; move the sign to the end of the line before";
 
 /// What is wrong where a sign of markup is left over in the text, by how the rest begins.
-const LEFT: [(&str, &str); 6] = [
+const PROBLEMS_BY_SIGN: [(&str, &str); 6] = [
     ("|", "a table needs a line of dashes below its head with as many columns"),
     ("[^", "footnotes are not supported by every format; write the note into the sentence"),
     ("{#", "an id belongs right after a heading, caption, picture or equation; move or remove it"),
@@ -360,25 +362,25 @@ fn leftover(source: &str, start: usize, text: &str) -> Option<(usize, &'static s
     let rest = &source[start + i..];
     if rest.starts_with("$$") {
         let lines = rest.match_indices('\n').map(|(offset, _)| start + i + offset + 1);
-        let ends = |c: char| "+-*#>=".contains(c) || c.is_ascii_digit();
+        let begins_block = |c: char| "+-*#>=".contains(c) || c.is_ascii_digit();
         let mut lines = lines.take_while(|offset| !source[*offset..].starts_with(['\n', '$']));
-        let cut = lines.find(|offset| source[*offset..].starts_with(ends));
-        return Some((cut.unwrap_or(start + i), CUT));
+        let cut = lines.find(|offset| source[*offset..].starts_with(begins_block));
+        return Some((cut.unwrap_or(start + i), UNCLOSED_FORMULA));
     }
-    let problem = LEFT.iter().find(|(sign, _)| rest.starts_with(sign));
-    Some((start + i, problem.map_or(LEFTOVER, |(_, problem)| problem)))
+    let problem = PROBLEMS_BY_SIGN.iter().find(|(sign, _)| rest.starts_with(sign));
+    Some((start + i, problem.map_or(UNCLOSED_MARKUP, |(_, problem)| problem)))
 }
 
 /// Finds the first citation or reference without brackets, `@rice1945`, in a part of the text.
-fn mentioned(source: &str, part: Range<usize>) -> Option<Range<usize>> {
+fn find_citation(source: &str, part: Range<usize>) -> Option<Range<usize>> {
     for (offset, _) in source[part.clone()].match_indices('@') {
         let offset = part.start + offset;
-        let free = source[..offset].chars().next_back();
+        let before = source[..offset].chars().next_back();
         let rest = &source[offset + 1..part.end];
         let ends = |c: char| c.is_whitespace() || ",;{}[]|".contains(c) || mark::is_of_mark(c);
         let id = rest.split(ends).next().unwrap_or_default();
         let id = id.trim_end_matches(|c: char| ".:?!()'\"’”".contains(c));
-        if free.is_none_or(|c| c.is_whitespace() || "(“‘–—".contains(c))
+        if before.is_none_or(|c| c.is_whitespace() || "(“‘–—".contains(c))
             && id.starts_with(char::is_alphanumeric)
         {
             return Some(offset..offset + 1 + id.len());

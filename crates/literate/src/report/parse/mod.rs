@@ -61,7 +61,7 @@ pub fn parse<'a>(
         declared,
         sources,
         id_at: 0..0,
-        quiet_until: 0,
+        end_of_cut_formula: 0,
         depth: 0,
         depth_without_formulas: 0,
         has_title: false,
@@ -86,7 +86,7 @@ struct Reader<'a> {
     /// Where an id begins and ends that is no text: behind a caption, a picture or an equation.
     id_at: Range<usize>,
     /// Where a formula ends that Markdown has cut; only its first error is reported.
-    quiet_until: usize,
+    end_of_cut_formula: usize,
     /// Number of lists and quotations around what is being read.
     depth: usize,
     /// Emphasis and links around it, in which GitHub renders no formula.
@@ -116,7 +116,7 @@ impl<'a> Reader<'a> {
         self.errors.push(error.with_place(self.filled.place(offset)));
     }
 
-    fn id(&mut self, kind: &str, id: &str, offset: usize) -> Result<(), Error> {
+    fn add_id(&mut self, kind: &str, id: &str, offset: usize) -> Result<(), Error> {
         self.places.add(Thing::Id(id.into()), offset);
         check_kind(kind, id)
     }
@@ -172,7 +172,7 @@ impl<'a> Reader<'a> {
                     return Err(fault("a heading may be followed by {#sec:id .unnumbered} only"));
                 }
                 let id = id.map(|id| id.to_string());
-                id.iter().try_for_each(|id| self.id("sec", id, range.start))?;
+                id.iter().try_for_each(|id| self.add_id("sec", id, range.start))?;
                 if level > 3 || level == 1 && std::mem::replace(&mut self.has_title, true) {
                     return Err(fault("a document has one title (#) and sections with ## and ###"));
                 }
@@ -208,7 +208,7 @@ impl<'a> Reader<'a> {
             }
             Tag::CodeBlock(kind) => self.code(kind, &range)?,
             Tag::Table(columns) => self.table(columns)?,
-            _ => return Err(fault(ELSE)),
+            _ => return Err(fault(UNSUPPORTED_MARKUP)),
         };
         self.events.next();
         Ok(block)
@@ -229,13 +229,13 @@ impl<'a> Reader<'a> {
         self.id_at = if caption.is_some() { id_at } else { 0..0 };
         let mut inlines = self.inlines()?;
         if let Some((word, kind)) = caption {
-            id.iter().try_for_each(|id| self.id(kind, id, range.start))?;
+            id.iter().try_for_each(|id| self.add_id(kind, id, range.start))?;
             if let Some(Inline::Text(last)) = inlines.last_mut() {
                 last.truncate(last.trim_end().len());
             }
             self.events.next_if(|(event, _)| matches!(event, Event::End(TagEnd::Paragraph)));
             let Some(Inline::Text(first)) = inlines.first_mut() else {
-                return Err(fault(ELSE));
+                return Err(fault(UNSUPPORTED_MARKUP));
             };
             *first = first.trim_start_matches(word).to_string();
             let mut block = self.block()?;
@@ -277,13 +277,13 @@ impl<'a> Reader<'a> {
         self.events.next();
         let behind = self.inlines()?;
         if !to_plain_text(&behind).trim().is_empty() {
-            return Err(fault(ALONE));
+            return Err(fault(FIGURE_NOT_ALONE));
         }
         let file = path.rsplit('/').next().unwrap_or_default();
         let name = file.rsplit_once('.').map_or(file, |(name, _)| name).to_string();
         let files = [path.to_string(), String::new()];
         let id = id.unwrap_or_else(|| format!("fig:{name}"));
-        self.id("fig", &id, at)?;
+        self.add_id("fig", &id, at)?;
         self.places.add(Thing::Picture(path.into()), at);
         let given = id.trim_start_matches("fig:");
         let digits = given.trim_start_matches(|c: char| c.is_ascii_uppercase());
@@ -349,8 +349,8 @@ impl<'a> Reader<'a> {
     }
 }
 
-const ELSE: &str = "this markup is not supported by every format";
-const ALONE: &str = "a figure must stand alone in its paragraph";
+const UNSUPPORTED_MARKUP: &str = "this markup is not supported by every format";
+const FIGURE_NOT_ALONE: &str = "a figure must stand alone in its paragraph";
 /// Returns how deep lists, or else quotations, stand in one another.
 fn deepest(blocks: &[Block], of_lists: bool) -> usize {
     let depth = |block: &Block| match block {
