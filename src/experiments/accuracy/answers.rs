@@ -180,6 +180,7 @@ fn table<'a>(
             Some(own.rival()?.result)
         })
         .real("engine", "s", 2, "the engine's seconds", |[own, _]| seconds(own.engine()))
+        .measured(&["lead", "generic_lead", "seconds", "engine"])
 }
 
 /// The counts of all settings at one σ, and the second counts of the engine.

@@ -262,7 +262,9 @@ fn kind_in_words(value: &Value) -> String {
             format!("Found from {realisations} realisations, with its standard error in brackets")
         }
         Provenance::Printed { .. } => "A number that the paper prints".into(),
-        Provenance::Measured => "A number measured once, and an input since".into(),
+        Provenance::Measured => {
+            "Measured, or a ratio of what was measured, and an input since".into()
+        }
     };
     match value.experiment.as_str() {
         "" => format!("{computed}."),

@@ -163,20 +163,44 @@ pub fn unsupported(tex: &str) -> Option<String> {
 }
 
 /// Spells a formula in characters: `p_{\mathrm{crit}}` as `p_crit`, `\sigma^{-3}` as `σ^-3`,
-/// `\frac{1}{2}` as `1/2`. A name that is not known stands without its backslash.
+/// `\frac{1}{2}` as `1/2`, `\sqrt{N+1}` as `√(N+1)`. A name that is not known stands without its
+/// backslash.
 pub fn spell(tex: &str) -> String {
-    let mut to_spelt_text = String::new();
-    let mut signs = signs(tex).peekable();
+    let (mut spelt, mut signs) = (String::new(), signs(tex).peekable());
+    while signs.peek().is_some() {
+        spelt += &spell_group(&mut signs);
+    }
+    spelt
+}
+
+/// Spells signs up to the brace that ends their group, which is taken too.
+fn spell_group<'a>(signs: &mut impl Iterator<Item = &'a str>) -> String {
+    let mut spelt = String::new();
     while let Some(sign) = signs.next() {
         match sign {
+            "}" => break,
+            "{" => spelt += &spell_group(signs),
             r"\begin" | r"\end" => while signs.next().is_some_and(|sign| sign != "}") {},
-            "}" if signs.peek() == Some(&"{") => to_spelt_text.push('/'),
-            "{" | "}" | "&" => (),
-            "~" => to_spelt_text.push(' '),
-            sign => to_spelt_text.push_str(sign.strip_prefix('\\').map_or(sign, spell_macro)),
+            r"\sqrt" => spelt += &format!("√{}", spell_argument(signs)),
+            r"\frac" | r"\dfrac" | r"\tfrac" => {
+                spelt += &format!("{}/{}", spell_argument(signs), spell_argument(signs));
+            }
+            "&" => (),
+            "~" => spelt.push(' '),
+            sign => spelt.push_str(sign.strip_prefix('\\').map_or(sign, spell_macro)),
         }
     }
-    to_spelt_text
+    spelt
+}
+
+/// Spells the argument of a macro, in brackets if it is a sum or a quotient.
+fn spell_argument<'a>(signs: &mut impl Iterator<Item = &'a str>) -> String {
+    let argument = match signs.find(|sign| *sign != " ") {
+        Some("{") => spell_group(signs),
+        sign => sign.map_or("", |sign| sign.strip_prefix('\\').map_or(sign, spell_macro)).into(),
+    };
+    let is_joined = argument.trim().contains(['+', '-', '−', '±', '/', ' ']);
+    if is_joined { format!("({})", argument.trim()) } else { argument }
 }
 
 /// Names that no character has in [`MATHS`].
@@ -208,6 +232,10 @@ mod tests {
         for (tex, words) in [
             (r"p_{\mathrm{crit}} \ge \sigma^{-3}", "p_crit ≥ σ^-3"),
             (r"\frac{1}{2}\,\dot x \in \mathbb{R}", "1/2  x ∈ R"),
+            (
+                r"\left(\frac{1+\sqrt{N+1}}{N}\right)^2 = \frac12 \sqrt2",
+                "((1+√(N+1))/N)^2 = 1/2 √2",
+            ),
             (r"\begin{aligned} a &= b \\ c &= d \end{aligned}", " a = b   c = d "),
         ] {
             assert_eq!(spell(tex), words);

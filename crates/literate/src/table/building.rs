@@ -79,16 +79,24 @@ impl<'a, R> Building<'a, R> {
 
     /// Sets the item that computed the columns of these names, which stand before it.
     pub fn computed_by(mut self, item: Origin, names: &[&str]) -> Self {
+        self.change(names, |cell| cell.source.clone_from(&item.0));
+        self
+    }
+
+    /// Marks the columns of these names, which stand before it, as measured.
+    pub fn measured(mut self, names: &[&str]) -> Self {
+        self.change(names, |cell| cell.kind = Provenance::Measured);
+        self
+    }
+
+    fn change(&mut self, names: &[&str], change: impl Fn(&mut Value)) {
         for name in names {
             let Some(place) = self.table.names().position(|column| column == *name) else {
-                self.fault(format!("computed_by names no column before it: {name}"));
+                self.fault(format!("no column before it has the name {name}"));
                 continue;
             };
-            for (_, cells) in &mut self.table.rows {
-                cells[place].source.clone_from(&item.0);
-            }
+            self.table.rows.iter_mut().for_each(|(_, cells)| change(&mut cells[place]));
         }
-        self
     }
 
     fn count_key(&mut self, name: &str) {
