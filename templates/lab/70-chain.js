@@ -184,6 +184,7 @@ function chain(bench) {
     const values = from_address("chain", FIRST);
     if (!values) return;
     set(values);
+    bench.scrollIntoView();
     guarded(request);
   });
   return { begin: () => guarded(request), draw };
