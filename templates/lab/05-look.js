@@ -1,7 +1,7 @@
 // How labs look.
 
 document.head.append(make("style", { textContent: `
-  .bench { display: grid; gap: 0.5rem; margin-top: 0.8rem; max-width: 58rem; }
+  .bench { display: grid; grid-template-columns: minmax(0, 1fr); gap: 0.5rem; margin-top: 0.8rem; max-width: 58rem; }
   .fields { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(17rem, 100%), 1fr)); gap: 0.4rem 2rem; }
   .fields > div { display: grid; grid-template-columns: 7.5rem 1fr 5.5rem; gap: 0.6rem; align-items: center; font-size: 0.95rem; line-height: 1.2; }
   .bench input, .bench select { font: inherit; color: inherit; accent-color: var(--link); min-width: 0; }

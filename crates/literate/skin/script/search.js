@@ -53,5 +53,5 @@ input.addEventListener("keydown", ({ key }) => {
   const finds = all("a", found);
   if (key === "Enter" && finds.length > 0) finds[next++ % finds.length].click();
 });
-if (sections.length > 0) contents.append(make("div", { className: "search", role: "search" }, input, found));
+if (sections.length > 0) contents.prepend(make("div", { className: "search", role: "search" }, input, found));
 
