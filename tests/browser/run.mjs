@@ -260,7 +260,7 @@ async function search_finds(page, name) {
     await input.fill(words);
     await finds.first().filter({ hasText: first }).waitFor({ timeout: 5000 }).catch(async () => check(false, `${name}: ${words} finds first ${await finds.first().innerText().catch(() => "nothing")}`));
   }
-  for (const words of ["mpact", "no such xylophones"]) {
+  for (const words of ["mpact", "xylophones"]) {
     await input.fill(words);
     const lines = await page.locator(".search li").allTextContents();
     check(lines.join() === "nothing found", `${name}: the search finds ${words}: ${lines}`);
