@@ -1,7 +1,7 @@
 // How labs look.
 
 document.head.append(make("style", { textContent: `
-  .bench { display: grid; gap: 0.5rem; margin-top: 0.8rem; max-width: 58rem; }
+  .bench { display: grid; grid-template-columns: minmax(0, 1fr); gap: 0.5rem; margin-top: 0.8rem; max-width: 58rem; }
   .fields { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(17rem, 100%), 1fr)); gap: 0.4rem 2rem; }
   .fields > div { display: grid; grid-template-columns: 7.5rem 1fr 5.5rem; gap: 0.6rem; align-items: center; font-size: 0.95rem; line-height: 1.2; }
   .bench input, .bench select { font: inherit; color: inherit; accent-color: var(--link); min-width: 0; }
@@ -13,7 +13,7 @@ document.head.append(make("style", { textContent: `
   .bench .controls button { min-width: 0; }
   .bench output { display: block; font-size: 0.95rem; min-height: 1.5em; }
   .bench .controls output { flex: 1 1 12rem; }
-  .bench code { overflow-wrap: anywhere; }
+  .bench :is(code, .controls a) { overflow-wrap: anywhere; }
   .bench canvas { display: block; width: 100%; height: 300px; }
   .bench p { margin: 0; font-size: 0.9rem; }
   .bench progress { accent-color: var(--blue); width: 9rem; }
@@ -24,6 +24,7 @@ document.head.append(make("style", { textContent: `
   /* What a line or a mark means. */
   .key { display: inline-block; margin-right: 1.2em; }
   .key::before { content: ""; display: inline-block; width: 1.3em; height: 0; margin-right: 0.4em; vertical-align: middle; border-top: 2px solid var(--of); }
+  .key[hidden] { display: none; }
   .key.dashed::before { border-top-style: dashed; }
   .key.dotted::before { border-top-style: dotted; }
   .key.dot::before { width: 0.6em; height: 0.6em; border: 0; border-radius: 50%; background: var(--of); }

@@ -4,6 +4,8 @@ const rich = (text) => text.split("*").map((piece, i) => (i % 2 ? make("em", {},
 const said = (number) => number.toLocaleString("en", { maximumSignificantDigits: 4 });
 const tall = (height) => (innerWidth < 640 ? 0.72 * height : height);
 
+const PAUSE = 300; // milliseconds
+
 /**
  * A slider and a field for typing. With `stops` the slider goes from one of these numbers to the
  * next; what is typed may lie between them.
@@ -17,8 +19,17 @@ function field({ name, title, unit = "", slider, stops, step, whole = false, bou
   typed.setAttribute("aria-label", `${title.replaceAll("*", "")}, typed`);
   const tell = () => stops && range.setAttribute("aria-valuetext", typed.value);
   const node = make("div", {}, make("label", { htmlFor: range.id }, ...rich(unit ? `${title} (${unit})` : title)), range, typed);
-  range.addEventListener("input", () => changed((typed.value = own(range)), tell()));
-  typed.addEventListener("input", () => changed((range.value = at(typed.value)), tell()));
+  // What is typed counts after a pause, or when it is left or entered.
+  let waiting;
+  const settle = () => (clearTimeout(waiting), (waiting = undefined), changed());
+  range.addEventListener("input", () => ((typed.value = own(range)), tell(), settle()));
+  typed.addEventListener("input", () => {
+    range.value = at(typed.value);
+    tell();
+    clearTimeout(waiting);
+    waiting = setTimeout(settle, PAUSE);
+  });
+  typed.addEventListener("change", () => waiting && settle());
   tell();
   return {
     node,
@@ -28,6 +39,8 @@ function field({ name, title, unit = "", slider, stops, step, whole = false, bou
       throw new RangeError(`${title.replaceAll("*", "")} = ${typed.value || "nothing"} is not allowed; give a ${whole ? "whole " : ""}number from ${bounds[0]} to ${bounds[1]}.`);
     },
     set(own) {
+      clearTimeout(waiting);
+      waiting = undefined;
       typed.value = own;
       range.value = at(own);
       tell();
@@ -45,11 +58,12 @@ function fields(list, changed) {
 }
 
 /** What each line, band or mark of a picture means: a colour, words, and a kind of line or mark. */
-const keys = (...names) => make("p", {}, ...names.map(([name, text, kind = ""]) => {
+const key = (name, text, kind = "", strength = 1) => {
   const node = make("span", { className: `key ${kind}` }, ...rich(text));
-  node.style.setProperty("--of", `var(--${name})`);
+  node.style.setProperty("--of", `color-mix(in srgb, var(--${name}) ${100 * strength}%, var(--page))`);
   return node;
-}));
+};
+const keys = (...names) => make("p", {}, ...names.map((one) => key(...one)));
 
 /** A button that says what it does. */
 const button = (textContent, click) => {

@@ -36,6 +36,7 @@ function computed({ chain, transient, window }) {
     hit: points(2),
     band: rows.filter((row) => row[1] !== null).map(([sigma, , , low, high]) => [sigma, low / curve.gaps, high / curve.gaps]),
     half,
+    end: points(1).at(-1)[0],
     jump: jumps.find(same),
     holds,
     label: settings({ ...base, ...protocol }),
@@ -44,7 +45,7 @@ function computed({ chain, transient, window }) {
 }
 
 /** What the curves say, in a sentence or two. */
-function finding({ half, jump, holds, label, protocol: { transient, window } }) {
+function finding({ half, end, jump, holds, label, protocol: { transient, window } }) {
   if (!holds) return `The faint curves are for ${label}; for your settings this edition has none.`;
   const times = `At T = ${transient} and W = ${window}`;
   const place = half ? `passes half of all gaps at *σ* = ${bracketed(half)}` : "passes half of all gaps below every *σ* that was run";
@@ -53,5 +54,6 @@ function finding({ half, jump, holds, label, protocol: { transient, window } }) 
     false: () => " There the most likely number climbs to all gaps without a jump.",
     null: () => " Whether the most likely number jumps there, our sample does not tell.",
   };
-  return `${times} the mean of our chains with an impact ${place}; the paper prints ${printed} and no times.${jump ? mode[jump.jumps]() : ""}`;
+  const until = end < 0.3 ? ` The curves are computed up to *σ* = ${end}.` : "";
+  return `${times} the mean of our chains with an impact ${place}; the paper prints ${printed} and no times.${jump ? mode[jump.jumps]() : ""}${until}`;
 }

@@ -26,8 +26,8 @@ function many(asked, changed) {
   let [shares, running, module] = [new Map(), 0];
   const words = () => {
     const done = progress.value;
-    const place = half_height(means(shares));
-    const own = place ? `; their mean passes half of all gaps near *σ* = ${place.toFixed(3)}` : "";
+    const place = done === progress.max && half_height(means(shares));
+    const own = place ? `; the mean of those with an impact passes half of all gaps near *σ* = ${place.toFixed(3)}` : "";
     told.replaceChildren(...rich(done > 0 ? `${done} of ${progress.max} chains${own}.` : ""));
   };
   function show(is_running) {

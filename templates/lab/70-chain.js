@@ -32,14 +32,17 @@ function chain(bench) {
   const [masses, link] = [row(), shared()];
   let latest;
   const ensemble = many(() => latest.asked, () => latest && draw_rise());
+  const [of_jump, of_earlier] = [key("purple", "the most likely number jumps to all gaps", "peak"), make("span")];
+  const legend = keys(["blue", "your chains, the last one large", "dot"], ["red", "mean of chains with an impact"], ["red", "mean of all chains", "dashed"], ["pale", "nine chains in ten", "band"],
+    ["green", "theory, Eq. (25)"], ["ink", `printed: ${printed}`, "dotted"]);
+  legend.append(of_jump, of_earlier);
   bench.append(
     masses.node,
-    make("div", { className: "first" }, force.node, make("div", { className: "controls" }, another)),
+    make("div", { className: "first" }, force.node, make("div", { className: "controls" }, another, link.copy_link)),
     times.node,
     make("div", { className: "pair" }, where, against),
     told, proof, said_of_times, ensemble.node,
-    keys(["blue", "your chains, the last one large", "dot"], ["red", "mean of chains with an impact"], ["red", "mean of all chains", "dashed"], ["pale", "nine chains in ten", "band"],
-      ["green", "theory, Eq. (25)"], ["ink", `printed: ${printed}`, "dotted"], ["purple", "the most likely number jumps to all gaps", "peak"]),
+    legend,
     make("details", {}, make("summary", {}, "Masses, restitution, seed; runs of this edition to repeat; link and command"), more.node, make("div", { className: "controls" }, choice), link.node));
 
   // The stored run that is most like this one: of the same kind, then of the nearest force.
@@ -67,13 +70,17 @@ function chain(bench) {
     picture.line([[0, low], [0, Math.min(high + 1, found.gaps)]], "blue", [], 10);
   }
 
-  // Chains that differ in nothing but σ, seed and realisation are shown together.
-  const KEPT = 500;
-  let [points, alike, theory] = [[], "", []];
+  // Chains that differ in nothing but σ, seed and realisation are shown together, and fainter those
+  // of earlier times.
+  const [KEPT, EARLIER] = [500, 3];
+  let [sets, theory] = [[], []];
+  const run_here = (means) => (ensemble.points().length > 0 ? ensemble.points() : means);
   function draw_rise() {
+    if (sets.length === 0) return;
     const { asked, found: { gaps } } = latest;
     const curves = computed(asked);
     const whole = (line) => line.map(([sigma, ...shares]) => [sigma, ...shares.map((share) => share * gaps)]);
+    const { points, means } = sets.at(-1);
     const last = points.at(-1);
     said_of_times.replaceChildren(...rich(finding(curves)));
     const picture = plot(against, tall(300), [0, Math.max(0.3, last[0]), "*σ* (*dω*²)"], [0, 1.08 * gaps, `gaps with an impact (of ${gaps})`],
@@ -90,7 +97,16 @@ function chain(bench) {
     // The name is beside its curve, where that rises.
     const rises = (theory.find(([, share]) => share > 0.5) ?? [0.3])[0];
     picture.words("theory", rises + 0.032, 0.5 * gaps, "green");
-    const own = whole(ensemble.points());
+    const earlier = sets.slice(0, -1).map((one, i) => [one, 0.6 ** (sets.length - 1 - i)]);
+    for (const [one, strength] of earlier) {
+      picture.fade(strength);
+      picture.marks(whole(one.means), "blue", 4);
+      picture.marks(whole(one.points), "blue", 2.5);
+    }
+    picture.fade(1);
+    of_jump.hidden = !curves.jump?.jumps;
+    of_earlier.replaceChildren(...earlier.map(([{ label }, strength]) => key("blue", `your chains at ${label}`, "dot", strength)));
+    const own = whole(run_here(means));
     picture.line(own, "blue", [], 1);
     picture.marks(own, "blue", 4);
     picture.marks(whole(points), "blue", 2.5);
@@ -102,13 +118,16 @@ function chain(bench) {
     draw_chain(latest, "");
     if (!asked.forces.drawn) return;
     const { masses: n, restitution: r } = asked.chain;
-    const of_these = [n, r, asked.chain.boundary, asked.chain.start, asked.transient, asked.window].join();
-    const point = [asked.forces.drawn.sigma, found.distinct / found.gaps];
-    points = [...(alike === of_these ? points : []), point].slice(-KEPT);
-    if (alike !== of_these) {
+    const of_chain = [n, r, asked.chain.boundary, asked.chain.start].join();
+    const label = `*T* = ${asked.transient}, *W* = ${asked.window}`;
+    const [last, alike] = [sets.at(-1), sets.filter((one) => one.of_chain === of_chain)];
+    const now = alike.find((one) => one.label === label) ?? { of_chain, label, points: [], means: [] };
+    now.points = [...now.points, [asked.forces.drawn.sigma, found.distinct / found.gaps]].slice(-KEPT);
+    if (now !== last) {
+      if (last) last.means = run_here(last.means);
       const module = await engine();
-      alike = of_these;
       theory = SIGMAS.map((sigma) => [sigma, module.mean(n + 1, module.p(sigma)) / (n + 1)]);
+      sets = [...alike.filter((one) => one !== now), now].slice(-1 - EARLIER);
       ensemble.clear();
     }
     draw_rise();
@@ -184,6 +203,7 @@ function chain(bench) {
     const values = from_address("chain", FIRST);
     if (!values) return;
     set(values);
+    bench.scrollIntoView();
     guarded(request);
   });
   return { begin: () => guarded(request), draw };

@@ -44,7 +44,7 @@ export async function labs({ report, open, check, stays_narrow, accessible, pict
     await appears(figure.locator("output").first().filter({ hasText: /\d/ }), check, `${name}: nothing is run`);
     const reached = await figure.locator("input").first().evaluate((own) => own === document.activeElement);
     check(reached === (file !== "index.html"), `${name}: the first slider is ${reached ? "" : "not "}reached`);
-    await (lab === "chain" ? chains : circuits)(page, name, figure, { report, check });
+    await (lab === "chain" ? chains : circuits)(page, name, figure, { report, check, stays_narrow });
     const seen = () => figure.locator("canvas").evaluateAll((all) => all.map((one) => one.toDataURL()).join());
     const before = await seen();
     await page.waitForTimeout(300);
@@ -60,13 +60,19 @@ export async function labs({ report, open, check, stays_narrow, accessible, pict
   };
   await Promise.all([["index.html", "chain", 1280, "light"], ["beyond.html", "chain", 390, "dark"]].map(tried));
   await masses_move(open, check);
+  await link_shows_chain(open, check);
   await Promise.all([["report.html", "theory", 1280, "dark"], ["report.html", "theory", 390, "light"]].map(tried));
 }
 
-async function chains(page, name, figure, { report, check }) {
+async function typed(figure, label, value) {
+  await figure.getByLabel(`${label}, typed`).fill(value);
+  await figure.getByLabel(`${label}, typed`).press("Enter");
+}
+
+async function chains(page, name, figure, { report, check, stays_narrow }) {
   const [told, proof] = [figure.locator("output").nth(0), figure.locator("output").nth(1)];
   const data = (what) => figure.locator(".bench").evaluate((bench, what) => bench.dataset[what], what);
-  const set = (label, value) => figure.getByLabel(`${label}, typed`).fill(value);
+  const set = (label, value) => typed(figure, label, value);
   await figure.locator("summary").click();
   const choice = figure.getByLabel("Runs of this edition");
 
@@ -93,6 +99,7 @@ async function chains(page, name, figure, { report, check }) {
   await times_move_the_curves(figure, told, check, name, set);
   await states_have_an_address(page, figure, check, name, set);
   await many_are_run(figure, check, name);
+  await stays_narrow(page, `${name}, many`);
 
   // From slider to picture, by keyboard.
   await figure.getByLabel("force σ (dω²)", { exact: true }).focus();
@@ -148,7 +155,7 @@ async function states_have_an_address(page, figure, check, name, set) {
   await set("realisation", "3");
   await appears(figure.locator("code").filter({ hasText: "impact-paper sweep --sigma 0.1 --realisations 3..4" }), check, `${name}: no command`);
   const hash = await page.evaluate(() => location.hash);
-  check(hash === "#chain:sigma=0.1&realisation=3", `${name}: the address says ${hash}`);
+  check(hash === "#chain:sigma=0.1&T=500&W=200&realisation=3", `${name}: the address says ${hash}`);
   await page.evaluate(() => (location.hash = "#chain:sigma=0.2&T=1000"));
   await appears(figure.locator("output").filter({ hasText: "t = 1,000 to 1,200" }).filter({ hasNotText: "so far" }), check, `${name}: an address sets nothing`);
   check((await figure.getByLabel("force σ, typed").inputValue()) === "0.2", `${name}: an address sets no σ`);
@@ -169,6 +176,16 @@ async function many_are_run(figure, check, name) {
   check(!(await figure.locator("progress").isVisible()), `${name}: progress of nothing`);
 }
 
+/** A shared link shows its chain at the top of a phone. */
+async function link_shows_chain(open, check) {
+  const page = await open("index.html#chain:sigma=0.13&T=1000", 390, "light", { loads: true });
+  await appears(page.locator(".bench output").filter({ hasText: "t = 1,000 to 1,200" }).filter({ hasNotText: "so far" }), check, "a link runs nothing");
+  await page.waitForTimeout(300);
+  const top = await page.locator("#lab-chain").evaluate((lab) => lab.getBoundingClientRect().top);
+  check(top >= 0 && top < 100, `a link shows its chain at ${top}`);
+  await page.context().close();
+}
+
 /** A row of masses moves by itself unless a reader prefers it still, and stops when asked to. */
 async function masses_move(open, check) {
   const page = await open("index.html", 1280, "light", { loads: true });
@@ -187,7 +204,7 @@ async function masses_move(open, check) {
 
 async function circuits(page, name, figure, { report, check }) {
   const told = figure.locator("output");
-  const set = (label, value) => figure.getByLabel(`${label}, typed`).fill(value);
+  const set = (label, value) => typed(figure, label, value);
   const text = (of) => readFileSync(join(report, `data/theory-${of}.csv`), "utf8");
   const [table, header] = [(of) => rows(text(of)), (of) => text(of).split("\n")[0].split(",")];
   const at = async (p) => {

@@ -11,6 +11,9 @@ const open = async (value) => {
   card.hidePopover();
   card.showPopover({ source: value });
   card.scrollTop = 0;
+  // On a phone the card is at the end of the window, and its number goes above it.
+  const over = value.getBoundingClientRect().bottom + 8 - card.getBoundingClientRect().top;
+  if (over > 0 && matchMedia("(max-width: 40rem)").matches) scrollBy(0, over);
 };
 const values = all("[data-card]");
 for (const sign of all("a[data-card]")) {

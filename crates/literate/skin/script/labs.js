@@ -5,7 +5,12 @@
 let lab;
 for (const figure of all(".runs .lab")) {
   const status = figure.querySelector("[role=status]");
-  const run = (asked) => (lab ??= load("lab.js")).then(() => open_lab(figure, asked));
+  const is_asked = location.hash.startsWith(`#${figure.dataset.lab}:`);
+  const run = async (asked) => {
+    await (lab ??= load("lab.js"));
+    await open_lab(figure, asked);
+    if (is_asked) figure.scrollIntoView();
+  };
   figure.hidden = false;
   const begin = () => {
     status.textContent = "Loading …";
@@ -19,7 +24,7 @@ for (const figure of all(".runs .lab")) {
     lab = undefined;
     document.documentElement.classList.remove("runs");
   });
-  else if (location.hash.startsWith(`#${figure.dataset.lab}:`)) begin();
-  if (location.hash.startsWith(`#${figure.dataset.lab}:`)) figure.scrollIntoView();
+  else if (is_asked) begin();
+  if (is_asked) figure.scrollIntoView();
 }
 

@@ -19,6 +19,8 @@ function scale([low, high, is_log], from, to) {
 /** All points of a figure that its panels show. */
 function points_of(svg, files) {
   const rest = files.map((file) => file.trim().split("\n").map(cells));
+  const words = all(".said", svg).filter((word) => /^\([a-z]\)$/.test(word.textContent));
+  const letters = words.map((word) => [word.textContent, word.transform.baseVal.consolidate().matrix]);
   const panels = Map.groupBy(all(".data[data-axes]", svg), (group) => group.dataset.frame);
   return [...panels.values()].flatMap((groups) => {
     const names = new Set(groups.map((group) => group.dataset.name));
@@ -29,6 +31,10 @@ function points_of(svg, files) {
     const column = (row, name) => row[columns.indexOf(name) - 1] ?? "";
     const [left, top, right, bottom] = groups[0].dataset.frame.split(" ").map(Number);
     const ends = groups[0].dataset.axes.split(" ");
+    // The letter of a panel stands above its frame, or above one to the left.
+    const above = letters.filter(([, { e, f }]) => e < left + NEAR && f < top && f > top - NEAR);
+    const [letter] = above.toSorted(([, a], [, b]) => b.e - a.e)[0] ?? [];
+    const panel = letter ? `${letter} ` : "";
     const [x, y] = [scale(ends.slice(0, 3), left, right), scale(ends.slice(3), bottom, top)];
     return rows.flatMap(([series, ...row]) => {
       const [of, value] = columns[2] === "low" ? [row[0], ""] : row;
@@ -38,7 +44,7 @@ function points_of(svg, files) {
       const range = low === "" ? "" : `, interval ${digits(low)} to ${digits(high)}`;
       const bar = error === "" ? "" : ` \u00b1 ${digits(error)}`;
       const known = value === "" ? "" : `; ${named(head[2])}: ${digits(value)}${bar}`;
-      return [{ px, py, series, text: `${series}: ${named(head[1])} = ${digits(of)}${known}${range}` }];
+      return [{ px, py, series, text: `${panel}${series}: ${named(head[1])} = ${digits(of)}${known}${range}` }];
     });
   });
 }
@@ -65,12 +71,15 @@ for (const svg of all("figure svg:has([data-axes])")) {
     const far = (point) => Math.hypot(point.px - x, weight * (point.py - y));
     return among.reduce((best, point) => (best && far(best) <= far(point) ? best : point), undefined);
   };
-  svg.addEventListener("pointermove", async ({ clientX, clientY }) => {
+  const point_at = async ({ clientX, clientY }, near) => {
     await ready();
     const { x, y } = new DOMPoint(clientX, clientY).matrixTransform(svg.getScreenCTM().inverse());
     const point = nearest(x, y);
-    show(point && Math.hypot(point.px - x, point.py - y) < NEAR ? point : undefined);
-  });
+    show(point && Math.hypot(point.px - x, point.py - y) < near ? point : undefined);
+  };
+  svg.addEventListener("pointermove", (event) => point_at(event, NEAR));
+  // A finger that leaves comes before its click, which stays until something else is touched.
+  svg.addEventListener("click", (event) => point_at(event, Infinity));
   svg.addEventListener("pointerleave", () => show(undefined));
   svg.tabIndex = 0;
   svg.addEventListener("focus", async () => {
