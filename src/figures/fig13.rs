@@ -71,10 +71,9 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         panel.label_ends(&ends.collect::<Vec<_>>())?;
         if p == large {
             // The three names of what nearly coincides there.
-            let last = x[1];
-            let value = contributions(p)[2][last as usize - 1];
-            let (x, y) = panel.area.map_coordinate(&(last, value));
-            let bracket = [(40, -420), (70, -420), (70, 420), (40, 420)];
+            let end = contributions(p)[2][x[1] as usize - 1];
+            let (x, y) = panel.area.map_coordinate(&(x[1], end));
+            let bracket = [(75, -370), (45, -370), (45, 470), (75, 470)];
             let bracket = bracket.map(|(right, down)| (x + right, y + down)).into();
             sheet.area.draw(&line(bracket, Stroke::solid(GREY, HAIR)))?;
         }

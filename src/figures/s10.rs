@@ -98,10 +98,10 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
             _ => continue,
         };
         if let Some(Point { x, y, .. }) = at {
-            by_time.label(&words, (*x, y.min(top)), offset, colour)?;
+            by_time.label_nearby(&words, (*x, y.min(top)), offset, colour)?;
         }
         if *method == Verlet {
-            by_time.label(&to, (last.x, last.y), (0, -1), colour)?;
+            by_time.label_nearby(&to, (last.x, last.y), (0, -1), colour)?;
         }
     }
     rivals::better(&by_time, (2500.0, 0.68 * top), (1300.0, 0.79 * top))?;
