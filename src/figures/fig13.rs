@@ -83,7 +83,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         results.number(&format!("theory.classes[p={p}].simple")).map(|share| short(share, 2))
     };
     let description = describe!(
-        "Probability of k different impacts, N = {N}, for five classes of circuits: a thick grey line for the sum, broken ones on it for the \
+        "Probability of k different impacts, N = {N}, for five classes of circuits: a thick grey line for the sum, broken ones for the \
          classes. (b) enlarges (a); (e), (f) are (a), (d) on a logarithmic axis. Simple circuits hold {} of the whole at p = {}, {} at p = {} and {} at p = {}.",
         share(small)?,
         short(small, 3),
