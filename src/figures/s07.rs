@@ -28,7 +28,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let x = if i < 2 { x.without_numbers() } else { x };
         let y = Axis::linear(-15.0, 15.0, 5.0, 1, "difference (%)").column("error of the mean (%)");
         let y = if i % 2 == 0 { y } else { y.without_numbers() };
-        let panel = sheet.panel(frame, x, y)?.outside(Outside::Cut);
+        let panel = sheet.panel(frame, x, y)?.outside(Outside::Edge);
         panel.heading(LETTERS[i], &format!("*σ* = {}, *T* = {}", chains.sigma, of.transient))?;
         let tolerance = answers::MEANS.iter().find(|mean| mean.0 == chains.sigma);
         let tolerance = tolerance.map(|mean| 100.0 * mean.1);
@@ -43,17 +43,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
             let (setting, x) = (row.setting, time(row.setting)?);
             Some(rivals::Point { setting, x, y: 100.0 * share.value, interval: Some(interval) })
         };
-        let curves = rivals::all_by_method(&own, point);
-        rivals::draw(&panel, &curves, &[])?;
-        // What lies beyond an end of the axis.
-        for (method, points) in &curves {
-            let stroke = Stroke::solid(encoding::method(*method).2.colour, LINE);
-            for point in points.iter().filter(|point| !panel.y.contains(point.y)) {
-                let end = point.y.clamp(panel.y.lo, panel.y.hi);
-                let from = (point.x, end - 2.5 * end.signum());
-                panel.area.draw(&arrow(vec![from, (point.x, end)], stroke))?;
-            }
-        }
+        rivals::draw(&panel, &rivals::all_by_method(&own, point), &[])?;
         let engine = Setting { method: MethodName::Certified, value: 0.0, stop: 0.0 };
         let at = time(engine).map(|time| (time, 0.0));
         panel.unrecorded().markers("engine", at.as_slice(), encoding::method(engine.method))?;
@@ -67,7 +57,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     }
     let description = describe!(
         "Difference of the mean number of impacting gaps from the engine's against time, for {} questions; each mark, with its 95 % interval, \
-         is a method with a step or tolerance; an arrow points to those beyond, a band shows the error that is allowed. Float32 Verlet is left of the engine and level with it; others are slower or off. {clear} of \
+         is a method with a step or tolerance (at an edge: beyond it). Float32 Verlet is left of the engine and level with it; others are slower or off. {clear} of \
          {} differences are clear.",
         means.len(),
         rows.len(),

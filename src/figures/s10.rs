@@ -93,14 +93,14 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let (words, at, offset, colour) = match method {
             Advancement => (format!("{from} to {to}"), points.get(1), (-2, 2), INK),
             RungeKutta => (format!("{from} to {to}"), points.get(3), (2, 2), INK),
-            Sampled => (format!("sampling, {from} to {to}"), Some(last), (2, 0), INK),
+            Sampled => (format!("sampling, {from} to {to}"), Some(last), (1, -2), INK),
             Verlet => (from, Some(first), (0, -1), ORANGE),
             _ => continue,
         };
         if let Some(Point { x, y, .. }) = at {
             by_time.label_nearby(&words, (*x, y.min(top)), offset, colour)?;
         }
-        if *method == Verlet {
+        if *method == Verlet && points.len() > 1 {
             by_time.label_nearby(&to, (last.x, last.y), (0, -1), colour)?;
         }
     }

@@ -11,7 +11,7 @@ use impact_numerics::statistics::Estimate;
 pub const INTERVAL: Stroke = Stroke::solid(GREY, 30);
 
 /// Fewer active realisations have a mean that says more about them than about σ.
-const LEAST_ACTIVE: f64 = 10.0;
+const LEAST_ACTIVE: f64 = 8.0;
 
 /// Makes the axis of σ around the rise; the data files have all σ.
 pub fn sigma_axis() -> Axis {
