@@ -19,7 +19,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let mean = comparison::interpolate(&means, printed_threshold());
     draw_printed_threshold(&panel, mean.unwrap_or(0.0))?;
     panel.curve(Look::ALL.name, &all, Look::ALL.line)?;
-    panel.estimates(Look::ACTIVE.name, &rows.series(&[], "sigma", "mean")?, Look::ACTIVE.mark)?;
+    panel.estimates(Look::ACTIVE.name, &simulated(results)?, Look::ACTIVE.mark)?;
     panel.label(Look::ACTIVE.name, (panel.x.hi, n as f64), (-1, 3), RED)?;
     panel.label(Look::ALL.name, first_point_above(&all, 7.0), (3, 0), RED)?;
     if let Some(half) = half_height {

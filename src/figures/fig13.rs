@@ -10,8 +10,8 @@ use crate::params::{HIGHER_P, VERTICES as N};
 /// Name, symbol, colour and dash of a class.
 type Class = (&'static str, &'static str, RGBColor, Dash);
 
-/// The sum of all classes: thin, so that the broken lines of the classes are seen on it.
-const SUM: Stroke = Stroke::solid(GREY, THIN);
+/// The sum of all classes: the ground on which the thinner broken lines of the classes are seen.
+const SUM: Stroke = Stroke::solid(GREY, 2 * LINE + 8);
 
 /// The five classes in the order of Eq. (38).
 const CLASSES: [Class; 5] = [
@@ -56,6 +56,9 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
             let (_, symbol, colour, _) = CLASSES[class];
             panel.label(symbol, (k as f64, classes[class][k - 1]), (right, down), colour)?;
         }
+        if i == 2 {
+            panel.label("all", (11.0, five(p)[10]), (0, -1), GREY)?;
+        }
     }
     for (letter, p, x, top) in
         [("(e)", small, panels[1].1, 5880), ("(f)", large, panels[3].1, 8980)]
@@ -66,13 +69,21 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let ends = contributions(p).into_iter().zip(CLASSES);
         let ends = ends.map(|(y, look)| (format!("{}, {}", look.0, look.1), over_k(&y), look.2));
         panel.label_ends(&ends.collect::<Vec<_>>())?;
+        if p == large {
+            // The three names of what nearly coincides there.
+            let end = contributions(p)[2][x[1] as usize - 1];
+            let (x, y) = panel.area.map_coordinate(&(x[1], end));
+            let bracket = [(75, -370), (45, -370), (45, 470), (75, 470)];
+            let bracket = bracket.map(|(right, down)| (x + right, y + down)).into();
+            sheet.area.draw(&line(bracket, Stroke::solid(GREY, HAIR)))?;
+        }
     }
 
     let share = |p: f64| {
         results.number(&format!("theory.classes[p={p}].simple")).map(|share| short(share, 2))
     };
     let description = describe!(
-        "Probability of k different impacts, N = {N}, for five classes of circuits: a thin grey line for the sum, broken ones for the \
+        "Probability of k different impacts, N = {N}, for five classes of circuits: a thick grey line for the sum, broken ones for the \
          classes. (b) enlarges (a); (e), (f) are (a), (d) on a logarithmic axis. Simple circuits hold {} of the whole at p = {}, {} at p = {} and {} at p = {}.",
         share(small)?,
         short(small, 3),

@@ -39,7 +39,10 @@ pub const FINEST: usize = usize::MAX;
 /// Draws the settings of each method as marks on a line, and the names of some next to their marks.
 /// In the data each setting is a series.
 pub fn draw(panel: &Panel, curves: &Curves, places: &[Place]) -> Drawn {
-    for (method, points) in curves {
+    // The engine on top of all others.
+    let (engine, others): (Vec<_>, Vec<_>) =
+        curves.iter().partition(|curve| curve.0 == MethodName::Certified);
+    for (method, points) in others.into_iter().chain(engine) {
         let look = encoding::method(*method);
         // Thin lines of several colours would not be told apart.
         let bar = Stroke::solid(if *method == MethodName::Certified { RED } else { GREY }, HAIR);

@@ -68,11 +68,11 @@ fn shades(sheet: &Sheet, panel: &Panel, run: &SpaceTime, length: f64) -> Drawn {
     let row = (bottom - top) as u32 / (run.width() as u32 + 1);
     let width = (right - left) / INTERVALS as i32 + 1;
     let style = words(SMALL, INK, HPos::Left, VPos::Bottom);
-    let title = format!("impacts in {}/*ω*:", short(length, 2));
+    let title = format!("shade and thickness: impacts in {}/*ω*", short(length, 2));
     let base = top - 450;
-    sheet.area.draw_text(&title, &style, (left + 2250, base))?;
+    sheet.area.draw_text(&title, &style, (left + 350, base))?;
     for (shade, name) in SHADES.into_iter().enumerate() {
-        let colour = ordered(shade, SHADES.len());
+        let colour = ordered([0, 1, 3][shade], 4);
         let with_shade = counts.iter().filter(|(_, count)| count.ilog2().min(2) == shade as u32);
         let places = with_shade
             .map(|((interval, gap), _)| ((*interval as f64 + 0.5) * length, f64::from(*gap)));

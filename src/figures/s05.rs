@@ -87,13 +87,17 @@ fn shares(sheet: &Sheet, shares: &Table, masses: f64) -> Drawn {
             let look = (marks[1], MEDIUM, Stroke::solid(colour, THIN));
             panel.joined_estimates(&name, &points, look)?;
             // Where a label has room next to its curve.
+            let Some((first, last)) = points.first().zip(points.last()) else { continue };
             let (at, side) = match (column, place) {
-                ("from_above", 1) => (points.first(), (-2, 0)),
-                ("from_rest", 0) => (points.iter().find(|point| point.1.value >= 0.2), (2, 1)),
-                _ => (points.last(), (2, 0)),
+                // Below its points.
+                ("from_above", 1) => ((last.0, first.1.value), (-1, 2)),
+                ("from_rest", 0) => {
+                    let at = points.iter().find(|point| point.1.value >= 0.2).unwrap_or(last);
+                    ((at.0, at.1.value), (2, 1))
+                }
+                _ => ((last.0, last.1.value), (2, 0)),
             };
-            let Some((sigma, share)) = at else { continue };
-            labels.push((name, (*sigma, share.value), side, colour));
+            labels.push((name, at, side, colour));
         }
     }
     // Labels keep clear of what is drawn before them.

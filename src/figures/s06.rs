@@ -26,16 +26,15 @@ fn shares(sheet: &Sheet) -> Drawn {
     let y = Axis::decades(-6, 0, 1, "*k*^{∗}/*N*").between(4e-7, 1.0);
     let panel =
         sheet.lettered("(a)", Frame::new(1150, 430, 8150, 3730), x, y)?.outside(Outside::Cut);
-    // Beyond their jumps all lie on the limit, so the last to jump is widest and below the others,
-    // and each has a disc where it arrives.
+    // Beyond their jumps, which end in discs, all lie on the limit, and are data only.
     for (place, vertices) in DRAWN_VERTICES.into_iter().enumerate() {
         let colour = ordered(place, DRAWN_VERTICES.len());
-        let stroke = Stroke::solid(colour, [96, 66, 40][place]);
+        let stroke = Stroke::solid(colour, LINE);
         // No value lies within the jump.
         let [before, after] = large::shares(vertices);
         let name = format!("N = {vertices}");
         panel.curve(&name, &before, stroke)?;
-        panel.curve(&name, &after, stroke)?;
+        panel.record(&name, after.iter().copied());
         let jump: Vec<_> = before.last().into_iter().chain(after.first()).copied().collect();
         panel.guide("jump", &jump, Stroke::dashed(colour, THIN, DOTTED))?;
         let disc = (Symbol::Disc, LARGE, Stroke::solid(colour, THIN));
@@ -43,8 +42,7 @@ fn shares(sheet: &Sheet) -> Drawn {
         let name = format!("*N* = {}", power_of_ten(vertices.ilog10() as i32));
         panel.label(&name, (RANGE.0, 1.0 / vertices as f64), (1, -1), colour)?;
     }
-    // On top, so that it is seen on the curves that lie on it.
-    panel.curve("limit", &large::limit(), Stroke::dashed(ORANGE, THIN, LONG))?;
+    panel.curve("limit", &large::limit(), Stroke::dashed(ORANGE, LINE, LONG))?;
     panel.label("limit: max(0, 1 − 1/(*p N*))", (1.17, 1.0 - 1.0 / 1.17), (0, -3), ORANGE)
 }
 

@@ -4,6 +4,7 @@
 use super::encoding;
 use super::prelude::*;
 use super::rivals;
+use crate::experiments::accuracy::answers;
 use crate::experiments::accuracy::tables::{Compared, compared};
 use crate::experiments::{BIAS, MEASURED, Results};
 use crate::params::{MethodName, Setting};
@@ -21,14 +22,19 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         };
         let (left, top) = (1200 + 3950 * (i as i32 % 2), 480 + 3150 * (i as i32 / 2));
         let frame = Frame::new(left, top, left + 3000, top + 2450);
-        let x = Axis::decades(-2, 2, 1, "time (s)").between(0.04, 100.0);
+        let mut x = Axis::decades(-2, 2, 1, "time (s)").between(0.04, 100.0);
+        x.ticks.retain(|tick| tick.label.is_some());
         let x = x.column("time of one core for a thousand chains (s)");
         let x = if i < 2 { x.without_numbers() } else { x };
-        let y =
-            Axis::linear(-100.0, 50.0, 50.0, 5, "difference (%)").column("error of the mean (%)");
+        let y = Axis::linear(-15.0, 15.0, 5.0, 1, "difference (%)").column("error of the mean (%)");
         let y = if i % 2 == 0 { y } else { y.without_numbers() };
         let panel = sheet.panel(frame, x, y)?.outside(Outside::Edge);
         panel.heading(LETTERS[i], &format!("*σ* = {}, *T* = {}", chains.sigma, of.transient))?;
+        let tolerance = answers::MEANS.iter().find(|mean| mean.0 == chains.sigma);
+        let tolerance = tolerance.map(|mean| 100.0 * mean.1);
+        let band = tolerance.map(|t| [(panel.x.lo, -t), (panel.x.hi, t)]);
+        let band = band.map(|corners| Rectangle::new(corners, GREY.mix(0.25).filled()));
+        panel.draw_series("tolerance", band)?;
         panel.level("engine", 0.0, Stroke::solid(RED, HAIR))?;
         let own: Vec<_> = rows.iter().filter(|row| row.sigma == chains.sigma).collect();
         let point = |row: &&Compared| {
@@ -51,7 +57,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     }
     let description = describe!(
         "Difference of the mean number of impacting gaps from the engine's against time, for {} questions; each mark, with its 95 % interval, \
-         is a method with a step or tolerance. Float32 Verlet is left of the engine and level with it; others are slower or off. {clear} of \
+         is a method with a step or tolerance (at an edge: beyond it). Float32 Verlet is left of the engine and level with it; others are slower or off. {clear} of \
          {} differences are clear.",
         means.len(),
         rows.len(),

@@ -39,9 +39,9 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let count = scenes.len() as i32;
     let sheet = Sheet::new((TOP + ROW * count + 700) as u32);
     let frame = Frame::new(150, TOP, 8350, TOP + ROW * count);
-    let x = Axis::linear(0.0, 1.0, 1.0, 1, "").column("scene (1)").without_numbers();
+    let x = Axis::linear(0.0, 1.0, 1.0, 1, "").column("scene (1)");
     let y = Axis::linear(0.5, f64::from(count) + 0.5, 1.0, 1, "").column("share right (1)");
-    let panel = sheet.panel(frame, x, y.without_numbers())?;
+    let panel = sheet.bare_panel(frame, x, y)?;
     let name = words(SMALL, INK, HPos::Left, VPos::Top);
     for (row, scene) in (0..).zip(scenes) {
         sheet.area.draw_text(&scene.title, &name, (frame.left + 90, TOP + ROW * row + 60))?;
@@ -53,6 +53,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     for (i, (name, settings)) in groups.iter().enumerate() {
         let middle = left + width * settings.len() as i32 / 2;
         sheet.area.draw_text(name, &head, (middle, TOP - 100))?;
+        let bracket = [left, 2 * middle - left - 22].map(|x| (x, TOP - 30));
+        sheet.area.draw(&line(bracket.into(), Stroke::solid(INK, HAIR)))?;
         for (place, trials) in settings.iter().enumerate() {
             let share = |trial: &Trial| right(trial) as f64 / trial.len() as f64;
             let shares = (1..).map(f64::from).zip(trials.iter().map(|trial| share(trial)));

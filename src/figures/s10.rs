@@ -31,7 +31,7 @@ const PROGRAMS: [(&str, &str, usize, (i32, i32)); 6] = [
 /// The same for (c).
 const NAMES_IN_C: [Place; 3] = [
     Place { method: Certified, setting: FINEST, offset: (-2, 0) },
-    Place { method: Sampled, setting: 0, offset: (-2, 0) },
+    Place { method: Sampled, setting: 0, offset: (-1, 2) },
     Place { method: Advancement, setting: 2, offset: (0, 3) },
 ];
 
@@ -86,22 +86,24 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
             others.label_nearby(place.1, (at.0, at.1.min(top)), place.3, colour)?;
         }
     }
-    // The coarsest and the finest setting; the first of Runge–Kutta lies on the fixed steps.
+    // The coarsest and the finest setting, below the name or with it.
     for (method, points) in &curves {
-        let offsets = match method {
-            Advancement => [(1, -1), (2, 0)],
-            RungeKutta => [(1, 0); 2],
-            Sampled => [(-1, -1), (1, 1)],
-            Verlet => [(0, -1), (0, -1)],
+        let Some((first, last)) = points.first().zip(points.last()) else { continue };
+        let [from, to] = [first, last].map(|point| in_powers(point.setting.value));
+        let (words, at, offset, colour) = match method {
+            Advancement => (format!("{from} to {to}"), points.get(1), (-2, 2), INK),
+            RungeKutta => (format!("{from} to {to}"), points.get(3), (2, 2), INK),
+            Sampled => (format!("sampling, {from} to {to}"), Some(last), (1, -2), INK),
+            Verlet => (from, Some(first), (0, -1), ORANGE),
             _ => continue,
         };
-        let first = points.first().filter(|_| *method != RungeKutta);
-        let ends = first.into_iter().chain(points.iter().skip(1).last());
-        for (Point { setting, x, y, .. }, offset) in ends.zip(offsets) {
-            by_time.label_nearby(&in_powers(setting.value), (*x, y.min(top)), offset, GREY)?;
+        if let Some(Point { x, y, .. }) = at {
+            by_time.label_nearby(&words, (*x, y.min(top)), offset, colour)?;
+        }
+        if *method == Verlet && points.len() > 1 {
+            by_time.label_nearby(&to, (last.x, last.y), (0, -1), colour)?;
         }
     }
-    by_time.label_nearby("sampling", (6.5, 0.77 * top), (1, 0), INK)?;
     rivals::better(&by_time, (2500.0, 0.68 * top), (1300.0, 0.79 * top))?;
     rivals::better(&others, (0.5, 0.5 * top), (0.28, 0.7 * top))?;
     let growth = race.growth.growth().map_or("unknown".into(), |g| short(g.value, 3));

@@ -5,9 +5,13 @@ use super::prelude::*;
 use crate::experiments::Results;
 use crate::experiments::theory::comparison;
 pub use crate::params::printed_threshold;
+use impact_numerics::statistics::Estimate;
 
 /// Bars of intervals, which stay behind the marks.
 pub const INTERVAL: Stroke = Stroke::solid(GREY, 30);
+
+/// Fewer active realisations have a mean that says more about them than about σ.
+const LEAST_ACTIVE: f64 = 8.0;
 
 /// Makes the axis of σ around the rise; the data files have all σ.
 pub fn sigma_axis() -> Axis {
@@ -25,9 +29,20 @@ pub fn draw_printed_threshold(panel: &Panel, from: f64) -> Drawn {
     panel.label(&format!("paper: {threshold}"), line[1], (0, -1), INK)
 }
 
-/// Returns the mean over the active realisations against σ.
+/// Returns the mean over the active realisations against σ, where enough are active.
+pub fn simulated(results: &Results) -> Result<Vec<(f64, Estimate)>, Error> {
+    let rows = results.table("sweep.rows")?;
+    let mut active = rows.curve(&[], "sigma", "kept")?;
+    let realisations = results.number("sweep.run.realisations")?;
+    active.retain(|(_, share)| share * realisations >= LEAST_ACTIVE);
+    let mut means = rows.series(&[], "sigma", "mean")?;
+    means.retain(|(sigma, _)| active.iter().any(|point| point.0 == *sigma));
+    Ok(means)
+}
+
+/// The same without errors.
 pub fn simulated_points(results: &Results) -> Result<Vec<(f64, f64)>, Error> {
-    Ok(results.table("sweep.rows")?.curve(&[], "sigma", "mean")?)
+    Ok(simulated(results)?.into_iter().map(|(sigma, mean)| (sigma, mean.value)).collect())
 }
 
 /// Returns a theory curve up to the largest σ of the main sweep.

@@ -15,7 +15,7 @@ use impact_numerics::statistics::{mean, student_quantile, wilson};
 use literate::table::Building;
 
 /// How far a mean may be off, relative to it, at each σ.
-const MEANS: [(f64, f64); 4] = [(0.11, 0.05), (0.12, 0.05), (0.14, 0.01), (0.115, 0.05)];
+pub const MEANS: [(f64, f64); 4] = [(0.11, 0.05), (0.12, 0.05), (0.14, 0.01), (0.115, 0.05)];
 
 /// How far the share of active chains may be off, and the half height, relative to it.
 const ALIKE: f64 = 0.01;

@@ -39,9 +39,16 @@ impl Sheet {
         Sheet { area: DrawingArea::from(&drawing), drawing, records: RefCell::default() }
     }
 
-    /// Adds a panel and draws its axes. The area of the panel is as large as the sheet, so that
-    /// plotters moves no point onto the frame.
+    /// Adds a panel and draws its axes.
     pub fn panel(&self, frame: Frame, x: Axis, y: Axis) -> Result<Panel, Error> {
+        let panel = self.bare_panel(frame, x, y)?;
+        panel.draw_axes()?;
+        Ok(panel)
+    }
+
+    /// Adds a panel without its axes. The area of the panel is as large as the sheet, so that
+    /// plotters moves no point onto the frame.
+    pub fn bare_panel(&self, frame: Frame, x: Axis, y: Axis) -> Result<Panel, Error> {
         x.check()?;
         y.check()?;
         let place = (frame.left..frame.right, frame.bottom..frame.top);
@@ -51,9 +58,7 @@ impl Sheet {
         let record = Rc::new(RefCell::new(record));
         self.records.borrow_mut().push(record.clone());
         let (drawing, outside) = (self.drawing.clone(), Outside::Refuse);
-        let panel = Panel { area, frame, x, y, drawing, record, recorded: true, outside };
-        panel.draw_axes()?;
-        Ok(panel)
+        Ok(Panel { area, frame, x, y, drawing, record, recorded: true, outside })
     }
 
     /// Adds a panel, its axes and its letter.
