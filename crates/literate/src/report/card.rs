@@ -137,6 +137,12 @@ impl Cards<'_> {
         if let Provenance::Printed { place } = &value.kind {
             card.add_words("place", place);
         }
+        // Before its parameters, which may be many.
+        match (&value.kind, &*value.experiment) {
+            (Provenance::Printed { .. }, _) => (),
+            (_, "") => card.add_command("paper", self.project),
+            (_, name) => card.add_command(&format!("paper --rerun {name}"), self.project),
+        }
         card.add_item("computed by", &value.source, self.project);
         // Two paths of one item: the home was written by `stringify!`, the source by `type_name`.
         let home = self.ledger.equations.iter().find(|equation| equation.home == value.source);
@@ -149,9 +155,6 @@ impl Cards<'_> {
         card.add_row("data", links(&data));
         card.add_row("id", vec![Inline::Code(value.id.clone())]);
         card.add_experiment(&value.experiment, self);
-        if !value.experiment.is_empty() {
-            card.add_command(&format!("paper --rerun {}", value.experiment), self.project);
-        }
         Some(card)
     }
 

@@ -357,7 +357,7 @@ mod tests {
             (twice, "two rows have the keys [r=1]"),
             (columns, "two columns have the name x"),
             (late, "the key s stands after other columns"),
-            (unknown, "computed_by names no column before it: x"),
+            (unknown, "no column before it has the name x"),
             (nan, "test.bad[r=0].x is inf; "),
             (error, "test.bad[r=1].x is 1(NaN)"),
             (negative, "test.bad[r=1].x is 1(-0.5)"),
