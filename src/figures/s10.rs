@@ -14,7 +14,7 @@ const ROUNDING: f64 = f64::EPSILON / 2.0;
 /// Where names stand in (a).
 const NAMES_IN_A: [Place; 3] = [
     Place { method: Certified, setting: FINEST, offset: (0, 2) },
-    Place { method: Advancement, setting: 1, offset: (-2, 0) },
+    Place { method: Advancement, setting: 2, offset: (-2, 0) },
     Place { method: RungeKutta, setting: 3, offset: (2, 0) },
 ];
 
@@ -91,8 +91,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let Some((first, last)) = points.first().zip(points.last()) else { continue };
         let [from, to] = [first, last].map(|point| in_powers(point.setting.value));
         let (words, at, offset, colour) = match method {
-            Advancement => (format!("{from} to {to}"), points.get(1), (-2, 2), INK),
-            RungeKutta => (format!("{from} to {to}"), points.get(3), (2, 2), INK),
+            Advancement => (format!("{from} to {to}"), points.get(2), (-2, 2), INK),
+            RungeKutta => (format!("{from} to {to}"), points.get(2), (2, 0), INK),
             Sampled => (format!("sampling, {from} to {to}"), Some(last), (1, -2), INK),
             Verlet => (from, Some(first), (0, -1), ORANGE),
             _ => continue,
