@@ -62,7 +62,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     let job = Job { setting: setting(&args)?, start, latest: Arc::clone(&latest), args };
     let _alive = alive(move || format!("trace: at t = {:?}", f64::from_bits(latest.load(Relaxed))));
     let (mut header, mut failed_lines) = (job.header(), 0);
-    let mut out = io::stdout();
+    let mut stdout = io::stdout();
     // Scenarios are read while others run, and the rows of each are taken in turn.
     let (queue, scenarios) = sync_channel(4 * rayon::current_num_threads());
     thread::spawn(move || start_all(&Arc::new(job), &queue));
@@ -71,7 +71,8 @@ pub fn run(args: Args) -> Result<(), Failure> {
             // Whole rows: a signal that ends the program leaves no half of a number.
             Part::Rows(rows) => {
                 let text = std::mem::take(&mut header) + &rows;
-                if let Err(error) = out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+                if let Err(error) = stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush())
+                {
                     // A reader that goes away is no failure.
                     return printed(Err(error));
                 }

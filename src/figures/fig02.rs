@@ -26,13 +26,13 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     panel.bars(Look::MODE.name, &bars, 40, INTERVAL)?;
     draw_printed_threshold(&panel, 1.02 * n as f64)?;
     panel.markers(Look::MODE.name, &modes, Look::MODE.mark)?;
-    let text = format!("{}: all gaps", Look::MODE.name);
-    panel.label(&text, (panel.x.hi, n as f64), (-1, 2), PURPLE)?;
+    let mode_label = format!("{}: all gaps", Look::MODE.name);
+    panel.label(&mode_label, (panel.x.hi, n as f64), (-1, 2), PURPLE)?;
     let guide = Stroke::dashed(PURPLE, THIN, SHORT);
     if let (Some(place), Some(bar)) = (place, bars.last()) {
         panel.guide("jump", &[(place, bar.2), (place, n as f64)], guide)?;
-        let text = format!("jump at *σ* = {}", short(place, 4));
-        panel.label(&text, (place, 0.7 * n as f64), (2, 0), PURPLE)?;
+        let jump_label = format!("jump at *σ* = {}", short(place, 4));
+        panel.label(&jump_label, (place, 0.7 * n as f64), (2, 0), PURPLE)?;
     }
     if let (Some(place), Some(bar)) = (single, bars.first()) {
         panel.guide("jump", &[(place, 1.0), (place, bar.1)], guide)?;

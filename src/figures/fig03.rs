@@ -26,8 +26,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let level = n as f64 / 2.0;
         let guide = Stroke::dashed(GREY, HAIR, DOTTED);
         panel.guide("half height", &[(panel.x.lo, level), (half, level)], guide)?;
-        let text = format!("half of {n} at {}", short(half, 4));
-        panel.label(&text, (panel.x.lo, level), (2, -1), INK)?;
+        let half_label = format!("half of {n} at {}", short(half, 4));
+        panel.label(&half_label, (panel.x.lo, level), (2, -1), INK)?;
     }
 
     let (x, y) = (sigma_axis(), Axis::linear(0.0, 1.0, 0.5, 5, "share of chains"));

@@ -20,8 +20,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let p_jump = results.number("theory.jump.p_jump")?;
     let jump = results.number("theory.jump.k_after")?;
     most_likely([p_jump, jump], &mode)?;
-    let text = format!("from 1 to {jump} at *p* = {}", short(p_jump, 4));
-    mode.label(&text, (p_jump, jump / 2.0), (2, 0), INK)?;
+    let jump_label = format!("from 1 to {jump} at *p* = {}", short(p_jump, 4));
+    mode.label(&jump_label, (p_jump, jump / 2.0), (2, 0), INK)?;
     mean.curve("mean", &means(), Look::THEORY.line)?;
     mean.label("*μ* → 1 as *p* → 0", (mean.x.lo, 1.0), (3, -2), INK)?;
 

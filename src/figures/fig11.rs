@@ -38,8 +38,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let guide = Stroke::dashed(INK, HAIR, DOTTED);
     decades.guide("jump of k*", &[(0.0, level), (jump, level), (jump, bottom)], guide)?;
     decades.guide("jump from rest", &[(jump_rest, level), (jump_rest, bottom)], guide)?;
-    let text = format!("*k*^{{∗}} jumps at *p* = {}", short(level, 4));
-    decades.label(&text, (jump, level), (2, 6), INK)?;
+    let jump_label = format!("*k*^{{∗}} jumps at *p* = {}", short(level, 4));
+    decades.label(&jump_label, (jump, level), (2, 6), INK)?;
     decades.label(&number(jump, 4), (jump, level), (2, 2), GREEN)?;
     decades.label(&number(jump_rest, 4), (jump_rest, level), (-1, -1), GREEN)?;
 

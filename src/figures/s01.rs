@@ -53,8 +53,8 @@ pub fn draw(run: &SpaceTime) -> Result<Figure, Error> {
 }
 
 fn points(run: &SpaceTime, from: f64, to: f64) -> Vec<(f64, f64)> {
-    let all = run.times.iter().zip(&run.gaps).map(|(&time, &gap)| (time, f64::from(gap)));
-    all.filter(|(time, _)| (from..=to).contains(time)).collect()
+    let counts = run.times.iter().zip(&run.gaps).map(|(&time, &gap)| (time, f64::from(gap)));
+    counts.filter(|(time, _)| (from..=to).contains(time)).collect()
 }
 
 /// Shades each gap by the number of its impacts in intervals of this length, with a key.

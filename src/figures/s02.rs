@@ -29,24 +29,24 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     for (row, transient) in transients.iter().enumerate() {
         for (column, window) in windows.iter().enumerate() {
             let keys = [("transient", *transient), ("window", *window)];
-            let at = (column as f64, row as f64);
+            let centre = (column as f64, row as f64);
             let Ok(half) = table.number(&keys, "half_height") else {
-                panel.label("none", at, (0, 0), INK)?;
+                panel.label("none", centre, (0, 0), INK)?;
                 continue;
             };
             panel.record(&format!("*T* = {transient}"), [(*window, half)]);
-            let corners = [(at.0 - 0.5, at.1 - 0.5), (at.0 + 0.5, at.1 + 0.5)];
+            let corners = [(centre.0 - 0.5, centre.1 - 0.5), (centre.0 + 0.5, centre.1 + 0.5)];
             let share = 0.05 + 0.6 * (half - least) / (most - least);
             let ground = Rectangle::new(corners, BLUE.mix(share).filled());
             panel.draw_series("half height", [ground])?;
-            let text = words(SMALL, INK, HPos::Center, VPos::Center);
-            panel.area.draw(&Text::new(number(half, 3), at, text))?;
+            let number_style = words(SMALL, INK, HPos::Center, VPos::Center);
+            panel.area.draw(&Text::new(number(half, 3), centre, number_style))?;
             if number(half, 2) == printed {
-                as_printed.push(at);
+                as_printed.push(centre);
             }
             if (Protocol { transient: *transient, window: *window }) == Protocol::default() {
                 let around = [(-0.4, -0.4), (0.4, -0.4), (0.4, 0.4), (-0.4, 0.4), (-0.4, -0.4)];
-                let around = around.map(|(x, y)| (at.0 + x, at.1 + y));
+                let around = around.map(|(x, y)| (centre.0 + x, centre.1 + y));
                 panel.guide("ours", &around, Stroke::dashed(RED, LINE, SHORT))?;
             }
         }

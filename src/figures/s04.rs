@@ -46,10 +46,10 @@ fn counts(sheet: &Sheet, results: &Results) -> Drawn {
     if let Some((sigma, mean)) = grown.iter().find(|(_, mean)| mean.value > 85.0) {
         panel.label(Look::SEEDS.name, (*sigma, mean.value), (-1, -1), INK)?;
     }
-    let mut all = sweep.series(&[], "sigma", "mean_all")?;
-    all.retain(|(sigma, _)| *sigma > SIGMAS.0 && *sigma < SIGMAS.1);
-    panel.joined_estimates(Look::ALL.name, &all, Look::ALL.mark)?;
-    let low = all.iter().rfind(|(_, mean)| mean.value < 40.0);
+    let mut means = sweep.series(&[], "sigma", "mean_all")?;
+    means.retain(|(sigma, _)| *sigma > SIGMAS.0 && *sigma < SIGMAS.1);
+    panel.joined_estimates(Look::ALL.name, &means, Look::ALL.mark)?;
+    let low = means.iter().rfind(|(_, mean)| mean.value < 40.0);
     let Some((sigma, mean)) = low else { return Ok(()) };
     let leader = [(sigma + 0.001, mean.value - 3.0), (sigma + 0.004, mean.value - 10.0)];
     panel.guide("leader", &leader, Stroke::solid(RED, HAIR))?;

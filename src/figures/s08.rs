@@ -87,8 +87,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
 /// Draws a tile, filled from below by each kind of failure as far as its share of the cases.
 fn tile(sheet: &Sheet, (left, top): (i32, i32), width: i32, trial: &Trial) -> Drawn {
     let right = left + width - 22;
-    let all = [(left, top), (right, top + HEIGHT)];
-    sheet.area.draw(&Rectangle::new(all, GREEN.mix(0.3).filled()))?;
+    let tile = [(left, top), (right, top + HEIGHT)];
+    sheet.area.draw(&Rectangle::new(tile, GREEN.mix(0.3).filled()))?;
     let mut failures = 0;
     for (_, colour, outcomes) in FAILURES {
         let base = top + HEIGHT - HEIGHT * failures as i32 / trial.len() as i32;

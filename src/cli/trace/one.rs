@@ -273,8 +273,8 @@ impl Job {
 
 /// Writes the state for `--from`.
 fn save(path: &Path, state: &State) -> Result<(), Failure> {
-    let text = serde_json::to_string(state).unwrap_or_default();
-    std::fs::write(path, text + "\n").map_err(|error| unsaved(path, &error))
+    let json = serde_json::to_string(state).unwrap_or_default();
+    std::fs::write(path, json + "\n").map_err(|error| unsaved(path, &error))
 }
 
 pub fn unsaved(path: &Path, error: &std::io::Error) -> Failure {

@@ -102,9 +102,9 @@ impl Typed {
 /// All texts that code gives, with the file that draws it for one of a figure, and whether number
 /// words count: in descriptions and reasons, which are sentences.
 fn given(input: &Input<'_>) -> BTreeSet<(String, Option<usize>, bool)> {
-    let mut all = BTreeSet::new();
+    let mut given = BTreeSet::new();
     let mut add = |text: &str, file, with_words| {
-        all.insert((bare(text), file, with_words));
+        given.insert((bare(text), file, with_words));
     };
     for figure in input.figures {
         let sources = &input.project.sources;
@@ -125,7 +125,7 @@ fn given(input: &Input<'_>) -> BTreeSet<(String, Option<usize>, bool)> {
     let cells = input.values.tables().flat_map(Table::cells).chain(input.values.iter());
     let notes: BTreeSet<&str> = cells.map(|cell| cell.note.as_str()).collect();
     notes.into_iter().for_each(|note| add(note, None, false));
-    all
+    given
 }
 
 fn bare(text: &str) -> String {
