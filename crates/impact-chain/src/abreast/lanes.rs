@@ -1,10 +1,11 @@
 //! Keeps the gaps of many chains in lanes of wide registers, and looks at all of them step by step.
 
+use super::columns::{A, B, C, Columns, D, FORCED, LAST, REACH, SAG, TAME, WIDTH};
 use super::grid::{Grid, Phases, Step};
 use super::plan::Plan;
 use super::proof::{LARGEST, MARGIN, Part, blur, least_width};
 use super::roots::Candidates;
-use super::slot::{A, B, C, D, FORCED, LAST, REACH, SAG, Slot, TAME, WIDTH};
+use super::slot::Slot;
 use crate::Impact;
 use fearless_simd::{f64x4, prelude::*};
 
@@ -14,8 +15,9 @@ const CHECK_EVERY: usize = 128;
 pub struct Lanes<'a> {
     plan: &'a Plan,
     pub slots: Vec<Slot>,
+    pub columns: Columns,
     candidates: Candidates,
-    /// First columns of the blocks of a chain to look at, with the bits of gaps: none in the last.
+    /// First columns of the blocks to look at, with the bits of gaps: none in the last.
     flagged: Vec<(usize, u8)>,
     /// Slots with roots or candidates in this step.
     pending: Vec<usize>,
@@ -41,13 +43,14 @@ fn slope<S: Simd>(
 }
 
 impl<'a> Lanes<'a> {
-    pub fn new(plan: &'a Plan, slots: Vec<Slot>) -> Self {
+    pub fn new(plan: &'a Plan, slots: Vec<Slot>, columns: Columns) -> Self {
+        let blocks = columns.rows[A].len() / WIDTH;
         Lanes {
             plan,
             slots,
+            columns,
             candidates: Candidates::default(),
-            // There are more gaps than blocks.
-            flagged: vec![(0, 0); plan.weights.len() + 1],
+            flagged: vec![(0, 0); blocks + 1],
             pending: Vec::new(),
         }
     }
@@ -55,15 +58,15 @@ impl<'a> Lanes<'a> {
     /// Simulates all chains to the end, unless `stopped` returns true before.
     #[inline(always)]
     pub fn run<S: Simd>(&mut self, simd: S, grid: &Grid, end: f64, stopped: &dyn Fn() -> bool) {
-        let (mut i, mut start) = (0, grid.start());
+        let (mut i, mut start, mut listed) = (0, grid.start(), 0);
         for piece in grid.pieces() {
             for step in &*piece {
-                if i % CHECK_EVERY == 0 {
-                    for slot in &mut self.slots {
-                        slot.list_active(simd);
-                    }
+                let running = self.slots.iter().filter(|slot| !slot.has_ended).count();
+                if i % CHECK_EVERY == 0 || running != listed {
+                    listed = running;
+                    self.columns.list_active(simd, |chain| self.slots[chain].has_ended);
                     // No gap can close any more.
-                    if stopped() || self.slots.iter().all(|slot| slot.active.is_empty()) {
+                    if stopped() || self.columns.active.is_empty() {
                         return;
                     }
                 }
@@ -94,24 +97,22 @@ impl<'a> Lanes<'a> {
     /// Looks at all gaps that can close.
     #[inline(always)]
     fn look<S: Simd>(&mut self, simd: S, start: Phases, step: &Step) {
-        for slot in 0..self.slots.len() {
-            if self.slots[slot].active.is_empty() {
-                continue;
+        self.scan(simd, step.end);
+        for place in 0.. {
+            let (column, look) = self.flagged[place];
+            if look == 0 {
+                break;
             }
-            self.scan(simd, slot, step.end);
-            if self.sift(simd, slot, start, step) {
-                self.pending.push(slot);
-            }
+            self.sift(simd, column, look, start, step);
         }
     }
 
-    /// Flags the gaps of a chain whose width is below SAG at the end of the step, or was at its
-    /// start.
+    /// Flags the gaps whose width is below SAG at the end of the step, or was at its start.
     ///
     /// Of all others f lies above the chord less M₂ h²/8, that is, above zero throughout.
     #[inline(always)]
-    fn scan<S: Simd>(&mut self, simd: S, slot: usize, end: Phases) {
-        let Slot { rows: [a, b, c, d, sag, .., last], active, .. } = &mut self.slots[slot];
+    fn scan<S: Simd>(&mut self, simd: S, end: Phases) {
+        let Columns { rows: [a, b, c, d, sag, .., last], active, .. } = &mut self.columns;
         // Of one length, so that one check of bounds is left.
         let (columns, last) = (a.len(), &mut last[..a.len()]);
         let rows = [&a[..columns], &b[..columns], &c[..columns], &d[..columns], &sag[..columns]];
@@ -128,70 +129,61 @@ impl<'a> Lanes<'a> {
         flags[flagged] = (0, 0);
     }
 
-    /// Makes candidates of the flagged gaps that are below zero at the end of the step, and decides
-    /// about the others. Returns whether there are any.
+    /// Makes candidates of the flagged gaps of a block that are below zero at the end of the step,
+    /// and decides about the others.
     ///
     /// A tame gap with a root has a minimum ≤ 0 within the step and is convex there (see
     /// [`Part::tame`]), so f' < 0 at the start and f' ≥ 0 at the end, and the tangents meet below
     /// zero.
     #[inline(always)]
-    fn sift<S: Simd>(&mut self, simd: S, slot: usize, start: Phases, step: &Step) -> bool {
+    fn sift<S: Simd>(&mut self, simd: S, column: usize, look: u8, start: Phases, step: &Step) {
         let Plan { ratio, step: length, half, .. } = *self.plan;
-        let mut has_candidates = false;
-        for place in 0.. {
-            let (column, look) = self.flagged[place];
-            if look == 0 {
-                break;
-            }
-            let chain = &self.slots[slot];
-            let four = |row| chain.four(simd, row, column);
-            let parts = [four(A), four(B), four(C), four(D)];
-            let f = sum(parts, step.end) + 1.0;
-            let below = f.simd_lt(0.0).to_bitmask() as u8 & look;
-            let mut dips = look & !below;
-            let tame = four(SAG).simd_lt(four(TAME)).to_bitmask() as u8;
+        let columns = &self.columns;
+        let four = |row| columns.four(simd, row, column);
+        let parts = [four(A), four(B), four(C), four(D)];
+        let f = sum(parts, step.end) + 1.0;
+        let below = f.simd_lt(0.0).to_bitmask() as u8 & look;
+        let mut dips = look & !below;
+        let tame = four(SAG).simd_lt(four(TAME)).to_bitmask() as u8;
+        if dips != 0 {
+            let f0 = sum(parts, start) + 1.0;
+            let (rate0, rate1) = (slope(parts, start, ratio), slope(parts, step.end, ratio));
+            let meet = ((f - MARGIN) * rate0 - (f0 - MARGIN) * rate1) - rate1 * rate0 * length;
+            let dip = rate1.simd_ge(0.0) & rate0.simd_lt(0.0) & meet.simd_ge(0.0);
+            dips &= dip.to_bitmask() as u8 | !tame;
             if dips != 0 {
-                let f0 = sum(parts, start) + 1.0;
-                let (rate0, rate1) = (slope(parts, start, ratio), slope(parts, step.end, ratio));
-                let meet = ((f - MARGIN) * rate0 - (f0 - MARGIN) * rate1) - rate1 * rate0 * length;
-                let dip = rate1.simd_ge(0.0) & rate0.simd_lt(0.0) & meet.simd_ge(0.0);
-                dips &= dip.to_bitmask() as u8 | !tame;
-                if dips != 0 {
-                    dips &= chain.can_close(simd, column);
-                }
+                dips &= columns.can_close(simd, column);
             }
-            has_candidates |= below | dips != 0;
-            let part = Part { start: -half, end: half, after: -half, just_hit: false, tame: false };
-            self.find(slot, column, [below, dips, tame], part, step.middle);
         }
-        has_candidates
+        let part = Part { start: -half, end: half, after: -half, just_hit: false, tame: false };
+        self.find(column, [below, dips, tame], part, step.middle);
     }
 
     /// Makes candidates of gaps that are below zero at the end of a part of the step, and decides
     /// about other gaps by themselves: bits of the columns from this one on. The second may have
     /// just been hit.
     #[inline(always)]
-    fn find(
-        &mut self,
-        slot: usize,
-        column: usize,
-        [below, dips, tame]: [u8; 3],
-        part: Part,
-        middle: Phases,
-    ) {
-        let chain = &mut self.slots[slot];
+    fn find(&mut self, column: usize, [below, dips, tame]: [u8; 3], part: Part, middle: Phases) {
         let mut bits = below | dips;
         while bits != 0 {
             let lane = bits.trailing_zeros() as usize;
             bits &= bits - 1;
             let has_lane = |bits: u8| bits >> lane & 1 == 1;
-            let part =
-                || Part { just_hit: part.just_hit && lane == 1, tame: has_lane(tame), ..part };
-            let gap = chain.gap(column + lane);
+            let part = Part { just_hit: part.just_hit && lane == 1, tame: has_lane(tame), ..part };
+            let [place, gap] = self.columns.place(column + lane);
+            let (chain, amplitudes) =
+                (&mut self.slots[place], self.columns.amplitudes(column + lane));
+            if chain.has_ended {
+                return;
+            }
+            if !chain.is_pending {
+                chain.is_pending = true;
+                self.pending.push(place);
+            }
             if has_lane(below) {
-                self.candidates.push(chain.amplitudes(gap), slot, gap, part());
+                self.candidates.push(amplitudes, place, gap, part);
             } else {
-                chain.decide(self.plan, middle, gap, part());
+                chain.decide(self.plan, middle, gap, amplitudes, part);
             }
         }
     }
@@ -203,7 +195,9 @@ impl<'a> Lanes<'a> {
         for place in 0..self.pending.len() {
             let slot = self.pending[place];
             self.pending[left] = slot;
-            left += usize::from(self.impact(simd, slot, step, times));
+            let is_pending = self.impact(simd, slot, step, times);
+            self.slots[slot].is_pending = is_pending;
+            left += usize::from(is_pending);
         }
         self.pending.truncate(left);
     }
@@ -228,28 +222,29 @@ impl<'a> Lanes<'a> {
         // this time has it even sooner, and is a tie there.
         chain.take_first(plan.neighbours[now.gap]);
         // The three columns of the gap and its neighbours, and a fourth that does not change.
-        let column = now.gap;
+        let columns = &mut self.columns;
+        let column = columns.before(slot, now.gap);
         let weights = f64x4::from_slice(simd, &plan.weights[now.gap]);
-        let a = chain.four(simd, A, column) + weights * now.jump[0];
-        let b = chain.four(simd, B, column) - weights * now.jump[1];
-        let parts = [a, b, chain.four(simd, C, column), chain.four(simd, D, column)];
+        let a = columns.four(simd, A, column) + weights * now.jump[0];
+        let b = columns.four(simd, B, column) - weights * now.jump[1];
+        let parts = [a, b, columns.four(simd, C, column), columns.four(simd, D, column)];
         let free = a * a + b * b;
-        let bend = free.sqrt() + chain.four(simd, FORCED, column);
+        let bend = free.sqrt() + columns.four(simd, FORCED, column);
         let sag = bend * plan.eighth;
         let f = sum(parts, step.end) + 1.0;
         for (row, new) in [(A, a), (B, b), (SAG, sag), (LAST, f - MARGIN)] {
-            new.store_slice(&mut chain.rows[row][column..column + WIDTH]);
+            new.store_slice(&mut columns.rows[row][column..column + WIDTH]);
         }
         if sag.simd_gt(LARGEST * plan.eighth).any_true() {
             chain.hand_over();
             return true;
         }
-        let can_close = free.simd_gt(chain.four(simd, REACH, column)).to_bitmask() as u8 & 0b111;
-        chain.activate(column, usize::from(can_close));
-        if plan.ring && (column < 2 || column + 3 > chain.gaps) {
-            chain.copy_ends(column..column + 3);
+        let can_close = free.simd_gt(columns.four(simd, REACH, column)).to_bitmask() as u8 & 0b111;
+        columns.activate(column, usize::from(can_close));
+        if plan.ring && (now.gap < 2 || now.gap + 3 > plan.weights.len()) {
+            columns.copy_ends(column..column + 3);
         }
-        let tame = sag.simd_lt(chain.four(simd, TAME, column));
+        let tame = sag.simd_lt(columns.four(simd, TAME, column));
         let below = f.simd_lt(0.0).to_bitmask() as u8 & 0b111;
         let ends = [f, slope(parts, step.end, plan.ratio), bend];
         let (opening, left) = (now.speed * plan.restitution, plan.half - now.s);
@@ -258,7 +253,7 @@ impl<'a> Lanes<'a> {
         let tame = tame.to_bitmask() as u8;
         let after = now.s + blur(now.speed);
         let part = Part { start: now.s, end: plan.half, after, just_hit: true, tame: false };
-        self.find(slot, column, [below, dips, tame], part, step.middle);
+        self.find(column, [below, dips, tame], part, step.middle);
         true
     }
 }

@@ -7,6 +7,7 @@
 //! step. What these proofs do not cover is left to the engine, chain by chain and whole: slow
 //! impacts and contact, adjacent impacts whose order rounding cannot tell, dips near zero.
 
+mod columns;
 mod grid;
 mod lanes;
 mod plan;
@@ -17,6 +18,7 @@ mod slot;
 use crate::forcing::gap_amplitudes;
 use crate::vectors::vector_level;
 use crate::{Boundary, Chain, Counts, Engine, Error, Protocol, Scenario, Watch};
+use columns::Columns;
 use fearless_simd::{Level, dispatch};
 use grid::Grid;
 use lanes::Lanes;
@@ -48,7 +50,11 @@ pub struct Abreast {
 }
 
 /// A realisation that was simulated to its end.
-pub struct Realisation(Slot);
+pub struct Realisation {
+    slot: Slot,
+    /// Amplitudes of cos ωt and sin ωt of each gap, in units of d.
+    free: Vec<[f64; 2]>,
+}
 
 /// Counts the impacts of many realisations of a chain: side by side, or by the engine where that
 /// cannot be.
@@ -88,7 +94,7 @@ impl Counting {
         let count = |(index, has_scenario)| {
             let run = if has_scenario { runs.next().flatten() } else { None };
             if let Some(mut run) = run {
-                return Ok((run.counts(), run.0.watch));
+                return Ok((run.counts(), run.slot.watch));
             }
             let mut watch = Watch::new(&self.chain, &self.windows);
             let counts = watch.run(engine(index), index, self.until, stopped)?;
@@ -153,16 +159,28 @@ impl Abreast {
         scenarios: &[Scenario],
         stopped: &dyn Fn() -> bool,
     ) -> Vec<Option<Realisation>> {
-        let slots = scenarios.iter().map(|scenario| self.slot(scenario)).collect();
-        let mut lanes = Lanes::new(&self.plan, slots);
+        let gaps = self.chain.gaps();
+        let mut columns = Columns::new(scenarios.len(), gaps);
+        let set = |(place, scenario)| self.set(place, scenario, &mut columns);
+        let slots = scenarios.iter().enumerate().map(set).collect();
+        let mut lanes = Lanes::new(&self.plan, slots, columns);
         dispatch!(level, simd => lanes.run(simd, &self.grid, self.end, stopped));
-        let stopped = stopped();
-        let done = |slot: Slot| (!slot.handed_over && !stopped).then_some(Realisation(slot));
-        lanes.slots.into_iter().map(done).collect()
+        let (stopped, Lanes { slots, columns, .. }) = (stopped(), lanes);
+        let free = |place| {
+            let free = |gap| {
+                let [a, b, ..] = columns.amplitudes(columns.before(place, gap) + 1);
+                [a, b]
+            };
+            (0..gaps).map(free).collect()
+        };
+        let done = |(place, slot): (usize, Slot)| {
+            (!slot.handed_over && !stopped).then(|| Realisation { slot, free: free(place) })
+        };
+        slots.into_iter().enumerate().map(done).collect()
     }
 
     /// Sets a realisation at t = 0.
-    fn slot(&self, scenario: &Scenario) -> Slot {
+    fn set(&self, place: usize, scenario: &Scenario, columns: &mut Columns) -> Slot {
         let chain = &self.chain;
         let mut watch = Watch::new(chain, &self.windows);
         let alike = scenario.spacing == chain.spacing
@@ -173,17 +191,18 @@ impl Abreast {
             && scenario.forcing.len() == chain.masses
             && scenario.overtones.is_empty()
             && scenario.places.is_none();
-        let gaps = chain.gaps();
         let ready = watch.begin(self.until).is_ok();
-        let mut slot = Slot::new(gaps, watch);
+        let mut slot = Slot::new(watch);
         if !alike || !ready {
-            slot.handed_over = true;
+            slot.hand_over();
             return slot;
         }
         for (gap, amplitudes) in gap_amplitudes(scenario).into_iter().enumerate() {
             let width = 1.0 + amplitudes[0] + amplitudes[2];
-            slot.set(gap, amplitudes, &self.plan);
-            slot.handed_over |= width.is_nan() || width <= OPEN;
+            let is_bounded = columns.set(place, gap, amplitudes, &self.plan);
+            if !is_bounded || width.is_nan() || width <= OPEN {
+                slot.hand_over();
+            }
         }
         slot
     }
@@ -192,7 +211,7 @@ impl Abreast {
 impl Realisation {
     /// Returns its counts in the windows, and those of the whole run.
     pub fn counts(&mut self) -> Counts {
-        Counts { by_engine: 0, ..self.0.watch.complete() }
+        Counts { by_engine: 0, ..self.slot.watch.complete() }
     }
 
     /// Returns free parts (a_j, b_j) of the masses at the end that give the same gaps; on a ring
@@ -204,7 +223,7 @@ impl Realisation {
         (0..chain.masses)
             .map(|mass| {
                 if mass >= first {
-                    let [a, b, ..] = self.0.amplitudes(mass - first);
+                    let [a, b] = self.free[mass - first];
                     sum = [sum[0] + chain.spacing * a, sum[1] + chain.spacing * b];
                 }
                 sum
@@ -259,7 +278,7 @@ mod tests {
             let [mut impacts, mut decided] = [0; 2];
             for mut run in runs.into_iter().flatten() {
                 impacts += run.counts().total.impacts;
-                decided += run.0.decided;
+                decided += run.slot.decided;
             }
             assert!(
                 decided > 0 && (decided as f64) < share * impacts as f64,

@@ -37,9 +37,8 @@ impl Candidates {
         let Plan { ratio, restitution, half, .. } = *plan;
         let [cos, sin, forced_cos, forced_sin] = middle;
         let (zero, last) = (f64x8::splat(simd, 0.0), f64x8::splat(simd, half));
-        for ([a, b, c, d], members) in self.eights.iter().zip(self.members.chunks(8)) {
-            let row = |row| f64x8::from_slice(simd, row);
-            let [a, b, c, d] = [row(a), row(b), row(c), row(d)];
+        for (rows, members) in self.eights.iter().zip(self.members.chunks(8)) {
+            let [a, b, c, d] = rows.each_ref().map(|row| f64x8::from_slice(simd, row));
             let start = |lane: usize| members.get(lane).map_or(-half, |(.., part)| part.start);
             let start = f64x8::from_fn(simd, start);
             let (u, q) = (a * cos + b * sin, b * cos - a * sin);
@@ -85,7 +84,7 @@ impl Candidates {
                     let root = Root { s: s[lane], gap, speed: speed[lane], jump };
                     chain.add(root, part.after, half, restitution);
                 } else {
-                    chain.decide(plan, middle, gap, part);
+                    chain.decide(plan, middle, gap, rows.map(|row| row[lane]), part);
                 }
             }
         }
