@@ -4,9 +4,9 @@
 //! Chain i of n masses starts from rest; its forcing is drawn from stream i of the seed.
 
 use clap::Parser;
-use impact_chain::methods::{Certified, CountedSteps, HitGaps, Method, Task, VerletAbreast};
-use impact_chain::{Abreast, without_wide_vectors};
-use impact_chain::{Counters, Engine, Error, Protocol, Scenario, State};
+use impact_chain::methods::{Certified, CountedSteps, Method, Task, VerletAbreast};
+use impact_chain::{Abreast, HitGaps, without_wide_vectors};
+use impact_chain::{Counters, Engine, Error, Impact, Protocol, Scenario, State};
 use impact_numerics::random::{NormalPairs, Seed};
 use impact_paper::params::{
     BiasParams, Chain, Means, MethodName, Profile, RaceParams, Runs, ScaleParams, Setting,
@@ -259,10 +259,19 @@ const ENOUGH: f64 = 0.2;
 fn once(case: &Case, method: &dyn Method, scenarios: &[Scenario]) -> Result<u64, Error> {
     let Case { runs, window, first, .. } = case;
     let from = window.map_or(f64::INFINITY, |window| window.transient);
+    let until = if *first { HitGaps::One } else { HitGaps::All };
     let alone = |scenario: &Scenario| {
         let task = Task { scenario, start: &State::from_scenario(scenario), until: runs.until };
+        let mut is_hit = vec![false; scenario.gaps()];
+        let mut to_hit = if *first { 1 } else { is_hit.len() };
+        let mut is_unanswered = |impact: Impact| {
+            if impact.time > from && !is_hit[impact.gap] {
+                (is_hit[impact.gap], to_hit) = (true, to_hit - 1);
+            }
+            to_hit > 0
+        };
         // A run that the method gives up counts with the time that it took.
-        match method.run(task, &mut |impact| !(*first && impact.time > from)) {
+        match method.run(task, &mut is_unanswered) {
             Err(Error::Work { .. }) => Ok(0),
             ended => Ok(ended?.impacts),
         }
@@ -272,7 +281,6 @@ fn once(case: &Case, method: &dyn Method, scenarios: &[Scenario]) -> Result<u64,
         if window.is_none() {
             return Ok(verlet.run_all(scenarios, runs.until, &mut |_, _| true)?.impacts);
         }
-        let until = if *first { HitGaps::One } else { HitGaps::All };
         let ran = verlet.count_gaps(scenarios, runs.until, CountedSteps { from, until });
         return Ok(ran?.0.impacts);
     }
@@ -280,7 +288,7 @@ fn once(case: &Case, method: &dyn Method, scenarios: &[Scenario]) -> Result<u64,
     let Some(many) = together.and_then(|of| Abreast::new(&runs.chain, &[of], runs.until)) else {
         return scenarios.iter().map(alone).sum();
     };
-    let many = if *first { many.until_first_after(from) } else { many };
+    let many = many.until_hit(until, from);
     let mut impacts = 0;
     for some in scenarios.chunks(Abreast::batch_size(&runs.chain)) {
         for (run, scenario) in many.run(some, &|| false).into_iter().zip(some) {

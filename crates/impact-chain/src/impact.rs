@@ -54,3 +54,13 @@ pub fn share_change(change: f64, inverse_masses: [f64; 2]) -> [f64; 2] {
     let share = change / (left + right);
     [-(share * left), share * right]
 }
+
+/// How many gaps have to be hit until a question is answered.
+#[cfg(any(feature = "ensembles", feature = "methods"))]
+#[derive(Clone, Copy, Debug)]
+pub enum HitGaps {
+    /// One gap.
+    One,
+    /// All gaps.
+    All,
+}

@@ -72,6 +72,8 @@ pub use counts::{Counts, Protocol, Watch};
 pub use engine::Engine;
 pub use error::{Error, ErrorKind, check_range};
 pub use event::{End, Event};
+#[cfg(any(feature = "ensembles", feature = "methods"))]
+pub use impact::HitGaps;
 pub use impact::Impact;
 #[cfg(feature = "methods")]
 pub use impact::Sink;

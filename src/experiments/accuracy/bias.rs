@@ -2,8 +2,8 @@
 
 use crate::experiments::prelude::*;
 use crate::params::{BiasParams, Means, MethodName, Setting};
-use impact_chain::Abreast;
-use impact_chain::methods::{CountedSteps, HitGaps, Task, VerletAbreast};
+use impact_chain::methods::{CountedSteps, Task, VerletAbreast};
+use impact_chain::{Abreast, HitGaps};
 use rayon::prelude::*;
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -102,19 +102,18 @@ impl Columns {
     /// Copies columns of a ring that have changed to their other places, if they have two.
     #[cold]
     pub fn copy_ends(&mut self, columns: Range<usize>) {
-        let last = self.gaps;
+        let [chain, _] = self.place(columns.start);
+        let (first, last) = (chain * self.stride, chain * self.stride + self.gaps + 1);
         for column in columns {
-            let [chain, gap] = self.place(column);
-            let start = chain * self.stride;
-            let other = match gap {
-                0 => start + last + 2 - (column - start),
-                gap if gap + 1 == last => start + last - (column - start),
+            let other = match self.place(column) {
+                [_, 0] => first + last + 1 - column,
+                [_, gap] if gap + 1 == self.gaps => first + last - 1 - column,
                 _ => continue,
             };
             self.rows.iter_mut().for_each(|row| row[other] = row[column]);
             self.activate(other, 1);
-            (self.rows[SAG][start], self.rows[SAG][start + last + 1]) = (-1.0, -1.0);
         }
+        (self.rows[SAG][first], self.rows[SAG][last]) = (-1.0, -1.0);
     }
 
     /// Looks from now on at gaps that can close: bits of the columns from this one on.

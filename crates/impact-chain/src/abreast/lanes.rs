@@ -214,7 +214,7 @@ impl<'a> Lanes<'a> {
             let closing_speed = now.speed * plan.speed;
             chain.watch.count(Impact { time, gap: now.gap + plan.first, closing_speed });
         }
-        if time > end || time > plan.end_after {
+        if time > end || time > plan.end.1 && chain.hit(now.gap) {
             chain.end();
             return false;
         }

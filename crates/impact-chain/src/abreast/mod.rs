@@ -17,7 +17,7 @@ mod slot;
 
 use crate::forcing::gap_amplitudes;
 use crate::vectors::vector_level;
-use crate::{Boundary, Chain, Counts, Engine, Error, Protocol, Scenario, Watch};
+use crate::{Boundary, Chain, Counts, Engine, Error, HitGaps, Protocol, Scenario, Watch};
 use columns::Columns;
 use fearless_simd::{Level, dispatch};
 use grid::Grid;
@@ -129,11 +129,11 @@ impl Abreast {
         Some(Abreast { chain, windows, until, end, plan, grid })
     }
 
-    /// Ends each realisation right after its first impact later than `time`. One that the engine
-    /// has to do is not ended.
+    /// Ends each realisation as soon as one gap, or all, were hit later than `time`. One that the
+    /// engine has to do is not ended.
     #[must_use]
-    pub fn until_first_after(mut self, time: f64) -> Abreast {
-        self.plan.end_after = time;
+    pub fn until_hit(mut self, gaps: HitGaps, time: f64) -> Abreast {
+        self.plan.end = (gaps, time);
         self
     }
 
@@ -192,7 +192,11 @@ impl Abreast {
             && scenario.overtones.is_empty()
             && scenario.places.is_none();
         let ready = watch.begin(self.until).is_ok();
-        let mut slot = Slot::new(watch);
+        let to_hit = match self.plan.end.0 {
+            HitGaps::One => 1,
+            HitGaps::All => chain.gaps(),
+        };
+        let mut slot = Slot::new(watch, chain.gaps(), to_hit);
         if !alike || !ready {
             slot.hand_over();
             return slot;
@@ -238,29 +242,32 @@ mod tests {
     use crate::{NormalPairs, Seed};
     use fearless_simd::Simd;
 
-    /// A realisation that ends early has the impacts of the whole one up to the first after a time.
+    /// A realisation that ends early has the impacts of the whole one until one gap, or all, were
+    /// hit after a time.
     #[test]
-    fn realisations_end_with_the_impact_that_is_asked_for() {
-        let chain = Chain { masses: 30, ..Chain::default() };
-        let draw = |i| Scenario::draw(&chain, 0.2, &mut NormalPairs::new("first", Seed(1), i));
+    fn realisations_end_with_the_gap_that_is_asked_for() {
+        let chain = Chain { masses: 8, ..Chain::default() };
+        let draw = |i| Scenario::draw(&chain, 0.5, &mut NormalPairs::new("first", Seed(1), i));
         let scenarios: Vec<Scenario> = (0..16).map(draw).collect();
         let many = Abreast::new(&chain, &[], 60.0).unwrap();
-        let early = many.clone().until_first_after(30.0);
-        let mut after = 0;
-        for (run, scenario) in early.run(&scenarios, &|| false).into_iter().zip(&scenarios) {
-            let mut expected = 0;
-            let mut engine = crate::Engine::new(scenario).unwrap();
-            while let Some(impact) = engine.next_impact(60.0).unwrap() {
-                expected += 1;
-                if impact.time > 30.0 {
-                    break;
+        for (gaps, number) in [(HitGaps::One, 1), (HitGaps::All, 9)] {
+            let (early, mut ended) = (many.clone().until_hit(gaps, 30.0), 0);
+            for (run, scenario) in early.run(&scenarios, &|| false).into_iter().zip(&scenarios) {
+                let (mut expected, mut is_hit) = (0, [false; 9]);
+                let mut engine = crate::Engine::new(scenario).unwrap();
+                while let Some(impact) = engine.next_impact(60.0).unwrap() {
+                    expected += 1;
+                    is_hit[impact.gap] |= impact.time > 30.0;
+                    if is_hit.iter().filter(|&&is_hit| is_hit).count() == number {
+                        ended += 1;
+                        break;
+                    }
                 }
+                let counts = run.unwrap().counts();
+                assert_eq!(counts.total.impacts, expected);
             }
-            let counts = run.unwrap().counts();
-            assert_eq!(counts.total.impacts, expected);
-            after += usize::from(expected > 0);
+            assert!(ended > 4, "{gaps:?}: {ended}");
         }
-        assert!(after > 8);
         assert_eq!(Abreast::batch_size(&Chain { masses: 200, ..chain }), 8);
     }
 

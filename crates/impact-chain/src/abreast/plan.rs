@@ -1,7 +1,7 @@
 //! Holds what chains have in common that are simulated side by side.
 
 use crate::topology::Topology;
-use crate::{Boundary, Chain};
+use crate::{Boundary, Chain, HitGaps};
 
 /// What chains side by side have in common. Lengths in units of d, times of 1/ω.
 #[derive(Clone, Debug)]
@@ -24,8 +24,8 @@ pub struct Plan {
     /// gap after it go back.
     pub weights: Vec<[f64; 4]>,
     pub ring: bool,
-    /// A chain ends with its first impact after this time.
-    pub end_after: f64,
+    /// A chain ends once so many gaps were hit after this time.
+    pub end: (HitGaps, f64),
 }
 
 impl Plan {
@@ -52,7 +52,7 @@ impl Plan {
             neighbours: gaps.clone().map(neighbours).collect(),
             weights: gaps.map(weights).collect(),
             ring: chain.boundary == Boundary::Ring,
-            end_after: f64::INFINITY,
+            end: (HitGaps::All, f64::INFINITY),
         }
     }
 }

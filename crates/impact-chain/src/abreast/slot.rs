@@ -28,12 +28,16 @@ pub struct Slot {
     pub handed_over: bool,
     /// Whether it is not simulated any further.
     pub has_ended: bool,
+    /// Which gaps were hit since the time from which they count, and how many more end the chain.
+    is_hit: Vec<bool>,
+    to_hit: usize,
     /// Gaps of which the tests side by side did not tell.
     pub decided: u64,
 }
 
 impl Slot {
-    pub fn new(watch: Watch) -> Slot {
+    /// Creates a chain that ends when so many gaps are hit.
+    pub fn new(watch: Watch, gaps: usize, to_hit: usize) -> Slot {
         Slot {
             watch,
             roots: Vec::new(),
@@ -41,8 +45,17 @@ impl Slot {
             is_pending: false,
             handed_over: false,
             has_ended: false,
+            is_hit: vec![false; gaps],
+            to_hit,
             decided: 0,
         }
+    }
+
+    /// Counts a gap that is hit; returns whether it was the last that the chain waits for.
+    pub fn hit(&mut self, gap: usize) -> bool {
+        self.to_hit -= usize::from(!self.is_hit[gap]);
+        self.is_hit[gap] = true;
+        self.to_hit == 0
     }
 
     /// Ends the simulation of the chain.
@@ -135,7 +148,7 @@ mod tests {
             (0.0, 2.0 * SLOW, -1.0, 1.0, 0.5, true),
             (0.0, 1.9 * SLOW, -1.0, 1.0, 0.5, false),
         ] {
-            let mut slot = Slot::new(Watch::new(&Chain::default(), &[]));
+            let mut slot = Slot::new(Watch::new(&Chain::default(), &[]), 2, 2);
             slot.add(Root { s, gap: 0, speed, jump: [0.0; 2] }, after, end, restitution);
             assert_eq!(slot.roots.len(), usize::from(is_certain), "{s} {speed} {after} {end}");
             assert_eq!(slot.handed_over, !is_certain);

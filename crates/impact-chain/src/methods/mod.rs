@@ -37,4 +37,4 @@ pub use runge_kutta::RungeKutta;
 pub use sampled::Sampled;
 pub use truth::Truth;
 pub use verlet::Verlet;
-pub use verlet_abreast::{ChainSink, CountedSteps, HitGaps, VerletAbreast};
+pub use verlet_abreast::{ChainSink, CountedSteps, VerletAbreast};

@@ -7,7 +7,7 @@ use crate::impact::share_change;
 use crate::search::clock::Rate;
 use crate::topology::Topology;
 use crate::vectors::vector_level;
-use crate::{Error, Impact, Scenario, Sink, State};
+use crate::{Error, HitGaps, Impact, Scenario, Sink, State};
 use fearless_simd::{dispatch, f32x16, prelude::*};
 
 /// Number of chains in one register.
@@ -44,15 +44,6 @@ pub struct CountedSteps {
     pub from: f64,
     /// What ends a chain before the end of the run.
     pub until: HitGaps,
-}
-
-/// How many gaps have to be hit.
-#[derive(Clone, Copy, Debug)]
-pub enum HitGaps {
-    /// One gap.
-    One,
-    /// All gaps.
-    All,
 }
 
 /// Receives the number of a chain and an impact; returns false to end the chain.

@@ -2,11 +2,11 @@
 
 use crate::{drawn, given, run};
 use impact_chain::methods::{
-    Advancement, Certified, Cost, CountedSteps, HitGaps, Method, MoreauJean, Penalty, RungeKutta,
-    Sampled, Task, Verlet, VerletAbreast,
+    Advancement, Certified, Cost, CountedSteps, Method, MoreauJean, Penalty, RungeKutta, Sampled,
+    Task, Verlet, VerletAbreast,
 };
 use impact_chain::{
-    Boundary, Chain, Engine, Error, Impact, Initial, NormalPairs, Scenario, Seed, State,
+    Boundary, Chain, Engine, Error, HitGaps, Impact, Initial, NormalPairs, Scenario, Seed, State,
 };
 
 fn chain(masses: usize, boundary: Boundary, sigma: f64, index: u64) -> Scenario {
