@@ -1,14 +1,26 @@
-"""Runs each recipe of the cookbook, and tests it against the closed forms of the Rust examples."""
+"""Runs the README, and each recipe of the cookbook, which is tested against the closed forms of the
+Rust examples."""
 
 import pathlib
+import re
 import runpy
 
 import numpy
 
+FOLDER = pathlib.Path(__file__).parents[1]
+
+
+def test_readme():
+    names = {}
+    text = (FOLDER / "README.md").read_text("utf-8")
+    for code in re.findall(r"```python\n(.*?)```", text, re.DOTALL):
+        exec(code, names)
+    assert len(names["oscillators"]) == 200 and len(names["gaps"]) == len(names["impacts"]) == 1000
+
 
 def recipe(name, function, capsys):
     """Runs a recipe as a program, and returns its function."""
-    path = pathlib.Path(__file__).parents[1] / "cookbook" / f"{name}.py"
+    path = FOLDER / "cookbook" / f"{name}.py"
     names = runpy.run_path(str(path), run_name="__main__")
     assert capsys.readouterr().out
     return names[function]

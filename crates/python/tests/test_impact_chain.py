@@ -38,14 +38,45 @@ def test_states_and_events():
     assert kinds[0] == "impact" and "stick" in kinds
 
 
-def test_an_ensemble_counts_what_single_runs_do():
-    chain = {"masses": 10, "restitution": 0.7}
-    distinct, impacts = impact_chain.ensemble(0.3, 20, transient=20.0, window=30.0, seed=1, **chain)
-    for i in range(20):
-        scenario = impact_chain.Scenario.draw(0.3, i, seed=1, **chain)
+def test_an_ensemble_is_at_its_closed_form():
+    amplitudes = numpy.linspace(1.1, 4.0, 50)
+    balls = [ball(initial={"free": [[0.0, a]]}) for a in amplitudes]
+    until = lambda t: (t / numpy.arcsin(1 / amplitudes) + 1) // 2
+    distinct, impacts = impact_chain.ensemble(balls, 70.0, transient=50.0)
+    assert impacts.tolist() == (until(70.0) - until(50.0)).tolist()
+    assert distinct.tolist() == [2] * 50 and distinct.dtype == impacts.dtype == numpy.int64
+
+
+def test_an_ensemble_of_any_scenarios_counts_what_single_runs_do():
+    own = impact_chain.Scenario
+    start = {"at": {"positions": [0.5, 1.0], "velocities": [0.3, -1.0]}}
+    pressed = {"walls": [0, 9], "places": [-0.1, 2.0], "restitution": 0.0, "initial": start}
+    forces = numpy.linspace(0.5, 2.0, 20)
+    scenarios = [own(forcing=[[a, 0], [0, -a]], **pressed) for a in forces]
+    scenarios += [own(forcing=[[0.9, 0.1]], restitution=r, walls=[0, 1.5 + r]) for r in [0.4, 0.9]]
+    scenarios += [own(forcing=[[[1, 0]], [[0, 1]]], forcing_frequencies=[2.5, 0.7])]
+    scenarios += [own(forcing=[[a, 0], [-a, 0], [0, a]], boundary="ring") for a in forces[:5]]
+    distinct, impacts = impact_chain.ensemble(scenarios, 50.0, transient=20.0)
+    assert impacts.all()
+    for scenario, gaps, number in zip(scenarios, distinct, impacts, strict=True):
+        t, gap, _ = impact_chain.impacts(scenario, 50.0)
+        assert (gaps, number) == (len(set(gap[t > 20.0])), (t > 20.0).sum())
+    assert [len(counts) for counts in impact_chain.ensemble([], 50.0)] == [0, 0]
+
+
+def test_a_drawn_ensemble_counts_what_single_runs_do():
+    draw = lambda i, **fields: impact_chain.Scenario.draw(0.3, i, masses=10, seed=1, **fields)
+    scenarios = [draw(i, restitution=0.7) for i in range(20)]
+    distinct, impacts = impact_chain.ensemble(scenarios, 50.0, transient=20.0)
+    for i, scenario in enumerate(scenarios):
         t, gap, _ = impact_chain.impacts(scenario, 50.0)
         assert distinct[i] == len(set(gap[t > 20.0]))
+        # Side by side impacts are the same until rounding parts them.
         assert abs(impacts[i] - (t > 20.0).sum()) <= 2
+    far = draw(3, walls=[-5, 16], initial="random").to_dict()
+    assert far["walls"] == [-5, 16] and far["forcing"] == scenarios[3].to_dict()["forcing"]
+    overlapping = [draw(i, initial="random", spacing=0.1) for i in range(20)]
+    assert impact_chain.ensemble(overlapping, 50.0)[0].tolist() == [-1] * 20
 
 
 def test_a_run_goes_on_from_a_state_at_its_time():
@@ -57,14 +88,15 @@ def test_a_run_goes_on_from_a_state_at_its_time():
     assert abs(on - t[t > 7.3]).max() < 1e-9
     x, v = impact_chain.states(chain, [8.0], start=(7.3, x[0], v[0]))
     assert abs(x - impact_chain.states(chain, [8.0])[0]).max() < 1e-11
-    with pytest.raises(ValueError, match="7.0 is before the start at t = 8.0"):
+    with pytest.raises(ValueError, match="until: 7.0 is out of range; give a number from 8.0"):
         impact_chain.impacts(chain, 7.0, start=(8.0, x[0], v[0]))
 
 
 def test_a_scenario_is_its_json():
     scenario = impact_chain.Scenario.draw(0.2, 3, masses=4)
     assert scenario.to_dict() == json.loads(scenario.to_json())
-    for again in [impact_chain.Scenario(**scenario.to_dict()), pickle.loads(pickle.dumps(scenario))]:
+    unpickled = pickle.loads(pickle.dumps(scenario))
+    for again in [impact_chain.Scenario(**scenario.to_dict()), unpickled]:
         assert again == scenario and again.to_json() == scenario.to_json()
     assert scenario != impact_chain.Scenario.draw(0.2, 4, masses=4)
 
@@ -72,16 +104,22 @@ def test_a_scenario_is_its_json():
 def test_errors_name_the_field():
     with pytest.raises(ValueError, match="restitution: 1.5 is out of range; give a number from"):
         ball(restitution=1.5)
-    with pytest.raises(ValueError, match="at: give rising times"):
+    with pytest.raises(ValueError, match="at: .* give rising times"):
         impact_chain.states(ball(), [5.0, 1.0])
-    with pytest.raises(ValueError, match="a window above 0"):
-        impact_chain.ensemble(0.1, 1, window=-3.0)
+    with pytest.raises(ValueError, match="at: 5.0 is out of range; give a number from 7.0"):
+        impact_chain.states(ball(), 5.0, start=(7.0, [1.0], [0.0]))
+    with pytest.raises(ValueError, match="transient: 5.0 is out of range; give a number from 0"):
+        impact_chain.ensemble([ball()], 3.0, transient=5.0)
+    with pytest.raises(TypeError, match="scenarios"):
+        impact_chain.ensemble(ball(), 3.0)
     with pytest.raises(ValueError, match="until: "):
         impact_chain.impacts(ball(), float("nan"))
-    with pytest.raises(ValueError, match="length: give one of masses, "):
-        impact_chain.ensemble(0.1, 1, length=3)
-    with pytest.raises(ValueError, match="realisations: -1; give a whole number"):
-        impact_chain.ensemble(0.1, -1)
+    with pytest.raises(ValueError, match="length: unknown field"):
+        impact_chain.Scenario.draw(0.1, length=3)
+    with pytest.raises(ValueError, match="seed: -1; give a whole number"):
+        impact_chain.Scenario.draw(0.1, seed=-1)
+    with pytest.raises(ValueError, match="initial: 'free'; give \"rest\", \"zero\" or \"random\""):
+        impact_chain.Scenario.draw(0.1, initial="free")
     with pytest.raises(ValueError, match="places: a number is not finite"):
         ball(places=[float("nan")])
     with pytest.raises(TypeError, match="restitution: .*complex"):
@@ -97,7 +135,7 @@ def test_ctrl_c_ends_a_long_run():
     signal.signal(signal.SIGINT, signal.default_int_handler)
     threading.Timer(0.3, signal.raise_signal, [signal.SIGINT]).start()
     with pytest.raises(KeyboardInterrupt):
-        impact_chain.ensemble(0.3, 10**7)
+        impact_chain.ensemble([impact_chain.Scenario.draw(0.3)] * 10**5, 1e5)
     threading.Timer(0.3, signal.raise_signal, [signal.SIGINT]).start()
     with pytest.raises(KeyboardInterrupt):
         impact_chain.impacts(impact_chain.Scenario.draw(0.3), 1e9)
