@@ -42,8 +42,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         panel.label("its 95 % interval", (bar.0, bar.1), (2, 3), GREY)?;
     }
 
-    let shares = table.curve(&[], "gaps", "share")?;
-    let top = shares.iter().map(|(_, share)| *share).fold(0.0, f64::max);
+    let top = largest(&table.distinct("share")?);
     let mut heights = Vec::new();
     for (i, sigma) in table.distinct("sigma")?.into_iter().enumerate() {
         let shares = table.curve(&[("sigma", sigma)], "gaps", "share")?;
@@ -65,21 +64,10 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let [all, hump, peak] = ["all", "bulk", "peak"].map(|column| rows.number(&keys, column));
         let (all, hump) = (all?, hump?);
         panel.guide("hump", &[(peak?, hump), (panel.x.hi, hump)], guide)?;
-        let column = rows.series(&keys, "sigma", "all")?;
-        let bars =
-            column.iter().map(|(_, all)| (n as f64, all.value - all.error, all.value + all.error));
-        panel.unrecorded().bars(
-            "all gaps",
-            &bars.collect::<Vec<_>>(),
-            40,
-            Stroke::solid(INK, THIN),
-        )?;
-        heights.push(format!(
-            "{} and {} at σ = {}",
-            short(hump, 2),
-            short(all, 2),
-            short(sigma, 4)
-        ));
+        let end = rows.series(&keys, "sigma", "all")?.into_iter().map(|row| (n as f64, row.1));
+        let dot = (Symbol::Disc, 32, Stroke::solid(INK, THIN));
+        panel.unrecorded().estimates("all gaps", &end.collect::<Vec<_>>(), dot)?;
+        heights.push(format!("{}, {} at σ = {}", short(hump, 2), short(all, 2), short(sigma, 4)));
     }
     let at = |place: Option<f64>, digits| {
         place.map_or(String::new(), |place| format!(" at σ = {}", short(place, digits)))

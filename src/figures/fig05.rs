@@ -8,9 +8,6 @@ use crate::experiments::segments::{Segment, Segments};
 /// Colour and dash of each mass.
 const MASSES: [(RGBColor, Dash); 3] = [(BLUE, SOLID), (GREEN, LONG), (ORANGE, ALTERNATE)];
 
-/// How thick a wall is drawn, in units of the spacing.
-const WALL: f64 = 0.16;
-
 pub fn draw(all: &Segments) -> Result<Figure, Error> {
     draw_circuit(("A simple circuit and its motion", "simple"), &[0, 1, 3], &all.fig05)
 }
@@ -32,7 +29,8 @@ pub fn draw_circuit(
     let duration = segment.until - segment.from;
     let walls = (segment.masses + 1) as f64;
     let x = Axis::linear(0.0, duration, 1.0, 5, "time *t* (1/*ω*)");
-    let y = Axis::linear(-WALL, walls + WALL, 1.0, 1, "position *x*_{*j*} / *d*");
+    // With room for the walls.
+    let y = Axis::linear(-0.16, walls + 0.16, 1.0, 1, "position *x*_{*j*} / *d*");
     let panel = sheet.panel(Frame::new(1200, 4900, 8000, 8500), x, y)?;
     panel.set_suffix("b");
     sheet.area.draw_text("(b)", &style, (260, 4690))?;
@@ -75,7 +73,6 @@ fn motion(panel: &Panel, segment: &Segment, length: usize) -> Drawn {
     panel.unrecorded().markers("impacts", &hits, (Symbol::Ring, 70, Stroke::solid(RED, 24)))?;
     for (i, (hit, at)) in segment.impacts.iter().zip(&hits).enumerate() {
         panel.record(&format!("impact {}", name(hit.gap)), [*at]);
-        // Not on a wall.
         let down = if at.1 > walls - 0.5 { 2 } else { -1 };
         panel.label_nearby(&(i % length + 1).to_string(), *at, (0, down), RED)?;
     }

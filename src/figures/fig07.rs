@@ -24,11 +24,8 @@ pub fn draw() -> Result<Figure, Error> {
     let curve = sheet.lettered("(b)", frame, x, Axis::decades(lowest, 0, 40, &name))?.unrecorded();
     curve.curve("share of circuits", &over_k(&share), Stroke::solid(GREEN, LINE))?;
     let first = format!("10^{{−{}}}", -logs[0].round());
-    curve.markers(
-        "first",
-        &[(1.0, share[0])],
-        (Symbol::Disc, MEDIUM, Stroke::solid(GREEN, THIN)),
-    )?;
+    let disc = (Symbol::Disc, MEDIUM, Stroke::solid(GREEN, THIN));
+    curve.markers("first", &[(1.0, share[0])], disc)?;
     curve.label(&format!("{first} at *k* = 1"), (1.0, share[0]), (3, -1), INK)?;
 
     let peak = share.iter().position(|&s| s == top).unwrap_or(0) + 1;

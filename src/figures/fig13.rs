@@ -56,10 +56,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
             let (_, symbol, colour, _) = CLASSES[class];
             panel.label(symbol, (k as f64, classes[class][k - 1]), (right, down), colour)?;
         }
-        match i {
-            0 => panel.label("all", (1.0, five(p)[0]), (2, 1), GREY)?,
-            2 => panel.label("all", (11.0, five(p)[10]), (0, -1), GREY)?,
-            _ => (),
+        if i == 0 {
+            panel.label("all", (1.0, five(p)[0]), (2, 1), GREY)?;
         }
     }
     for (letter, p, x, top) in

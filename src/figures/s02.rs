@@ -23,9 +23,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let y = cells(&transients, "transient *T* (1/*ω*)").column("half_height (d omega^2)");
     let panel = sheet.panel(frame, x, y)?;
     let printed = number(printed_threshold(), 2);
-    let ground =
-        format!("{HALF_HEIGHT_LABEL}; outlined: rounds to {printed}; broken frame: our protocol");
-    panel.heading("", &ground)?;
+    let key = format!("{HALF_HEIGHT_LABEL}; outlined: rounds to {printed}; broken frame: ours");
+    panel.heading("", &key)?;
     let mut as_printed = Vec::new();
     let end = |column: &str| results.number(&format!("protocol.all.{column}"));
     let (least, most) = (end("least")?, end("largest")?);

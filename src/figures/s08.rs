@@ -49,10 +49,9 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let panel = sheet.bare_panel(frame, x, y)?;
     let name = words(SMALL, INK, HPos::Right, VPos::Center);
     for (row, scene) in (0..).zip(scenes) {
-        let lines = in_lines(&scene.title);
-        let middle = TOP + ROW * row + ROW / 2 - 140 * (lines.len() as i32 - 1);
-        for (line, y) in lines.into_iter().zip([middle, middle + 280]) {
-            sheet.area.draw_text(line, &name, (LEFT - 130, y))?;
+        let (first, second) = in_two(&scene.title);
+        for (line, down) in [(first, -140), (second, 140)] {
+            sheet.area.draw_text(line, &name, (LEFT - 130, TOP + ROW * row + ROW / 2 + down))?;
         }
     }
     let settings: usize = groups.iter().map(|group| group.1.len()).sum();
@@ -70,7 +69,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
             panel.record(&format!("{name}, {}", place + 1), shares);
             for (row, trial) in (0..).zip(trials) {
                 let top = TOP + ROW * row + (ROW - HEIGHT) / 2;
-                tile(&sheet, (left, top), (width, HEIGHT), trial)?;
+                tile(&sheet, Frame::new(left, top, left + width - SPACE, top + HEIGHT), trial)?;
             }
             left += width;
         }
@@ -82,7 +81,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let all_right = ("right", GREEN, &[Right][..]);
     for ((name, _, outcomes), x) in [all_right].iter().chain(&FAILURES).zip([240, 1420, 2850, 6430])
     {
-        tile(&sheet, (x, y), (size, size), &vec![outcomes[0]])?;
+        tile(&sheet, Frame::new(x, y, x + size, y + size), &vec![outcomes[0]])?;
         sheet.area.draw_text(name, &key, (x + size + 70, y + size / 2))?;
     }
     let description = describe!(
@@ -94,35 +93,25 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     Ok(sheet.finish("Where methods and programs fail", description))
 }
 
-/// Breaks a long title near its middle.
-fn in_lines(title: &str) -> Vec<&str> {
-    let middle = title.len() / 2;
-    let spaces = title.match_indices(' ').map(|space| space.0);
-    let spaces = spaces.filter(|&at| !title[at - 1..at + 2].contains('='));
-    match spaces.min_by_key(|at| at.abs_diff(middle)) {
-        Some(at) if title.len() > 28 => vec![&title[..at], &title[at + 1..]],
-        _ => vec![title],
-    }
+/// Breaks a title at the space nearest to its middle, but not next to "=".
+fn in_two(title: &str) -> (&str, &str) {
+    let is_free = |at: &usize| !title[..*at].ends_with('=') && !title[*at..].starts_with(" =");
+    let spaces = title.match_indices(' ').map(|space| space.0).filter(is_free);
+    title.split_at(spaces.min_by_key(|at| at.abs_diff(title.len() / 2)).unwrap_or(0))
 }
 
 /// Draws a tile, filled from below by each kind of failure as far as its share of the cases.
-fn tile(
-    sheet: &Sheet,
-    (left, top): (i32, i32),
-    (width, height): (i32, i32),
-    trial: &Trial,
-) -> Drawn {
-    let right = left + width - SPACE;
-    let tile = [(left, top), (right, top + height)];
+fn tile(sheet: &Sheet, Frame { left, top, right, bottom }: Frame, trial: &Trial) -> Drawn {
+    let tile = [(left, top), (right, bottom)];
     sheet.area.draw(&Rectangle::new(tile, GREEN.mix(0.3).filled()))?;
-    let mut failures = 0;
+    let (mut failures, mut base) = (0, bottom);
     for (_, colour, outcomes) in FAILURES {
-        let base = top + height - height * failures as i32 / trial.len() as i32;
         failures += trial.iter().filter(|outcome| outcomes.contains(outcome)).count();
-        let upper = top + height - height * failures as i32 / trial.len() as i32;
+        let upper = bottom - (bottom - top) * failures as i32 / trial.len() as i32;
         if upper < base {
             sheet.area.draw(&Rectangle::new([(left, upper), (right, base)], colour.filled()))?;
         }
+        base = upper;
     }
     Ok(())
 }
