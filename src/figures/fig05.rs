@@ -29,7 +29,8 @@ pub fn draw_circuit(
     let duration = segment.until - segment.from;
     let walls = (segment.masses + 1) as f64;
     let x = Axis::linear(0.0, duration, 1.0, 5, "time *t* (1/*ω*)");
-    let y = Axis::linear(0.0, walls, 1.0, 1, "position *x*_{*j*} / *d*");
+    // With room for the walls.
+    let y = Axis::linear(-0.16, walls + 0.16, 1.0, 1, "position *x*_{*j*} / *d*");
     let panel = sheet.panel(Frame::new(1200, 4900, 8000, 8500), x, y)?;
     panel.set_suffix("b");
     sheet.area.draw_text("(b)", &style, (260, 4690))?;
@@ -52,8 +53,11 @@ fn motion(panel: &Panel, segment: &Segment, length: usize) -> Drawn {
     for j in 1..=segment.masses {
         panel.level("equilibrium", j as f64, Stroke::solid(PALE, HAIR))?;
     }
-    panel.level("wall", 0.0, Stroke::solid(INK, LINE))?;
-    panel.level("wall", walls, Stroke::solid(INK, LINE))?;
+    for (inner, outer) in [(0.0, panel.y.lo), (walls, panel.y.hi)] {
+        let wall = [(panel.x.lo, inner), (panel.x.hi, outer)];
+        panel.area.draw(&Rectangle::new(wall, PALE.filled()))?;
+        panel.level("wall", inner, Stroke::solid(INK, THIN))?;
+    }
     let times = || segment.times.iter().map(|time| time - from);
     let paths = segment.positions.iter().map(|path| times().zip(path.iter().map(|x| x / d)));
     let paths: Vec<Vec<(f64, f64)>> = paths.map(Iterator::collect).collect();
@@ -69,7 +73,8 @@ fn motion(panel: &Panel, segment: &Segment, length: usize) -> Drawn {
     panel.unrecorded().markers("impacts", &hits, (Symbol::Ring, 70, Stroke::solid(RED, 24)))?;
     for (i, (hit, at)) in segment.impacts.iter().zip(&hits).enumerate() {
         panel.record(&format!("impact {}", name(hit.gap)), [*at]);
-        panel.label_nearby(&(i % length + 1).to_string(), *at, (0, -1), RED)?;
+        let down = if at.1 > walls - 0.5 { 2 } else { -1 };
+        panel.label_nearby(&(i % length + 1).to_string(), *at, (0, down), RED)?;
     }
     Ok(())
 }

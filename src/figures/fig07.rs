@@ -14,16 +14,19 @@ pub fn draw() -> Result<Figure, Error> {
     let top = largest(&share);
     let x = Axis::linear(SHOWN - 0.5, N as f64 + 0.5, 2.0, 2, "length *k*");
     let y = Axis::up_to(top, "*ϕ*_{*N*}(*k*) / *ϕ*_{*N*}^{tot}");
-    let columns = sheet.lettered("(a)", Frame::new(1150, 480, 4050, 3380), x, y)?;
+    let name = y.label.clone();
+    let columns = sheet.lettered("(a)", Frame::new(1150, 480, 3950, 3380), x, y)?;
     columns.set_suffix("");
     columns.columns("share of circuits", &share, Stroke::solid(GREEN, THIN))?;
     let lowest = (logs.iter().copied().fold(0.0, f64::min) / 40.0).floor() as i32 * 40;
     let x = Axis::linear(0.0, N as f64 + 1.0, 20.0, 2, "length *k*");
-    let frame = Frame::new(5250, 480, 8200, 3380);
-    let curve = sheet.lettered("(b)", frame, x, Axis::decades(lowest, 0, 40, ""))?.unrecorded();
+    let frame = Frame::new(5600, 480, 8200, 3380);
+    let curve = sheet.lettered("(b)", frame, x, Axis::decades(lowest, 0, 40, &name))?.unrecorded();
     curve.curve("share of circuits", &over_k(&share), Stroke::solid(GREEN, LINE))?;
     let first = format!("10^{{−{}}}", -logs[0].round());
-    curve.label(&format!("*k* = 1: {first}"), (8.0, share[0]), (1, -1), INK)?;
+    let disc = (Symbol::Disc, MEDIUM, Stroke::solid(GREEN, THIN));
+    curve.markers("first", &[(1.0, share[0])], disc)?;
+    curve.label(&format!("{first} at *k* = 1"), (1.0, share[0]), (3, -1), INK)?;
 
     let peak = share.iter().position(|&s| s == top).unwrap_or(0) + 1;
     let description = describe!(

@@ -12,10 +12,10 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     // From below zero, so that the values at one are above the axis.
     let y = |label: &str| Axis::linear(-4.0, top, 20.0, 2, label);
     let p = || Axis::decades(-3, 0, 1, "*p*");
-    let frame = Frame::new(1150, 430, 8150, 3430);
-    let mode = sheet.lettered("(a)", frame, p().without_numbers(), y("*k*^{∗}"))?;
+    let (frame, x) = (Frame::new(1150, 430, 8150, 3430), p().without_numbers());
+    let mode = sheet.lettered("(a)", frame, x, y("most likely number *k*^{∗}"))?;
     let frame = Frame::new(1150, 4130, 8150, 7130);
-    let mean = sheet.lettered("(b)", frame, p(), y("*μ*"))?.outside(Outside::Cut);
+    let mean = sheet.lettered("(b)", frame, p(), y("mean number *μ*"))?.outside(Outside::Cut);
 
     let p_jump = results.number("theory.jump.p_jump")?;
     let jump = results.number("theory.jump.k_after")?;

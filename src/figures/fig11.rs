@@ -39,9 +39,9 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     decades.guide("jump of k*", &[(0.0, level), (jump, level), (jump, bottom)], guide)?;
     decades.guide("jump from rest", &[(jump_rest, level), (jump_rest, bottom)], guide)?;
     let jump_label = format!("*k*^{{∗}} jumps at *p* = {}", short(level, 4));
-    decades.label(&jump_label, (jump, level), (2, 6), INK)?;
-    decades.label(&number(jump, 4), (jump, level), (2, 2), GREEN)?;
-    decades.label(&number(jump_rest, 4), (jump_rest, level), (-1, -1), GREEN)?;
+    decades.label(&jump_label, (jump, level), (2, 2), INK)?;
+    let places = format!("*σ* = {}, from rest {}", number(jump, 4), number(jump_rest, 4));
+    decades.label(&places, (jump, level), (2, 5), GREEN)?;
 
     let above = from_rest.iter().zip(&p).rfind(|(rest, p)| rest.1 > p.1);
     let description = describe!(

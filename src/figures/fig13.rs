@@ -39,10 +39,10 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(12_100);
     let [small, middle, large] = HIGHER_P;
     let panels: [Shown; 4] = [
-        (small, [0.0, 8.0, 2.0], &[(0, 2, 2, 0)]),
+        (small, [0.0, 8.0, 2.0], &[(0, 2, 3, -2)]),
         (small, [0.0, 12.0, 4.0], &[(0, 8, 1, -2), (1, 3, 1, -2)]),
         (middle, [0.0, 20.0, 5.0], &[(0, 3, 2, -1), (1, 15, 0, -3)]),
-        (large, [65.0, 95.0, 10.0], &[(4, 78, -2, 0)]),
+        (large, [65.0, 95.0, 10.0], &[(4, 77, -3, 0)]),
     ];
     for (i, (p, x, names)) in panels.iter().copied().enumerate() {
         let classes = contributions(p);
@@ -56,8 +56,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
             let (_, symbol, colour, _) = CLASSES[class];
             panel.label(symbol, (k as f64, classes[class][k - 1]), (right, down), colour)?;
         }
-        if i == 2 {
-            panel.label("all", (11.0, five(p)[10]), (0, -1), GREY)?;
+        if i == 0 {
+            panel.label("all", (1.0, five(p)[0]), (2, 1), GREY)?;
         }
     }
     for (letter, p, x, top) in

@@ -15,14 +15,14 @@ const INTERVALS: f64 = 200.0;
 const SHADES: [&str; 3] = ["1", "2–3", "4 or more"];
 
 pub fn draw(run: &SpaceTime) -> Result<Figure, Error> {
-    let sheet = Sheet::new(9700);
+    let sheet = Sheet::new(9850);
     let until = run.parameters.until;
     let gaps = || Axis::linear(-1.0, run.width() as f64, 20.0, 2, "gap");
     let time = |from: f64, to: f64, step: f64| Axis::linear(from, to, step, 2, "time *t* (1/*ω*)");
 
     // Thousandths are finer than the picture, and a file of all digits would be twice as long.
     let whole = time(0.0, until, until / 4.0).column("time_to_thousandths (1/omega)");
-    let whole = sheet.lettered("(a)", Frame::new(1200, 780, 8150, 4480), whole, gaps())?;
+    let whole = sheet.lettered("(a)", Frame::new(1200, 430, 8150, 4130), whole, gaps())?;
     let impacts = points(run, 0.0, until);
     whole.record("impacts", impacts.iter().map(|(time, gap)| (thousandths(*time), *gap)));
     window(&whole, until)?;
@@ -32,7 +32,7 @@ pub fn draw(run: &SpaceTime) -> Result<Figure, Error> {
     // From a round time before the first impact on.
     let from = (run.times.first().unwrap_or(&0.0) / 10.0).floor() * 10.0;
     let to = from + DETAIL;
-    let near = Frame::new(1200, 5600, 8150, 8900);
+    let near = Frame::new(1200, 5750, 8150, 9050);
     let near = sheet.lettered("(b)", near, time(from, to, DETAIL / 4.0), gaps())?;
     near.draw_series("first impacts", [ticks(points(run, from, to), 14, Stroke::solid(INK, 30))])?;
     starts(&near, run, to)?;
@@ -69,8 +69,8 @@ fn shades(sheet: &Sheet, panel: &Panel, run: &SpaceTime, length: f64) -> Drawn {
     let width = (right - left) / INTERVALS as i32 + 1;
     let style = words(SMALL, INK, HPos::Left, VPos::Bottom);
     let title = format!("shade and thickness: impacts in {}/*ω*", short(length, 2));
-    let base = top - 450;
-    sheet.area.draw_text(&title, &style, (left + 350, base))?;
+    let base = bottom + 950;
+    sheet.area.draw_text(&title, &style, (left + 60, base))?;
     for (shade, name) in SHADES.into_iter().enumerate() {
         let colour = ordered([0, 1, 3][shade], 4);
         let with_shade = counts.iter().filter(|(_, count)| count.ilog2().min(2) == shade as u32);
@@ -78,7 +78,7 @@ fn shades(sheet: &Sheet, panel: &Panel, run: &SpaceTime, length: f64) -> Drawn {
             .map(|((interval, gap), _)| ((*interval as f64 + 0.5) * length, f64::from(*gap)));
         let stroke = Stroke::solid(colour, row * (shade as u32 + 1) / 3);
         panel.draw_series("impacts", [ticks(places.collect(), width, stroke)])?;
-        let x = left + [4150, 4800, 5700][shade];
+        let x = left + [3900, 4550, 5450][shade];
         sheet.area.draw(&Rectangle::new([(x, base - 170), (x + 250, base)], colour.filled()))?;
         sheet.area.draw_text(name, &style, (x + 330, base))?;
     }
@@ -93,8 +93,8 @@ fn window(panel: &Panel, until: f64) -> Drawn {
         return Ok(());
     }
     let corners = [(from, panel.y.lo), (to, panel.y.hi)];
-    panel.draw_series("window", [Rectangle::new(corners, ORANGE.mix(0.3).filled())])?;
-    panel.label("counting window", (from, panel.y.hi), (1, -1), ORANGE)
+    panel.draw_series("window", [Rectangle::new(corners, GREY.mix(0.3).filled())])?;
+    panel.label("counting window", (from, panel.y.hi), (1, -1), INK)
 }
 
 /// A disc at the first impact of each gap at which impacts start.

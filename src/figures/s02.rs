@@ -1,5 +1,6 @@
 //! Draws Fig. S2: the half height of the rise for each transient and window, as a map.
 
+use super::encoding::HALF_HEIGHT_LABEL;
 use super::prelude::*;
 use crate::experiments::Results;
 use crate::params::{Protocol, printed_threshold};
@@ -22,7 +23,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let y = cells(&transients, "transient *T* (1/*ω*)").column("half_height (d omega^2)");
     let panel = sheet.panel(frame, x, y)?;
     let printed = number(printed_threshold(), 2);
-    panel.heading("", &format!("outlined: rounds to {printed}; broken frame: our protocol"))?;
+    let key = format!("{HALF_HEIGHT_LABEL}; outlined: rounds to {printed}; broken frame: ours");
+    panel.heading("", &key)?;
     let mut as_printed = Vec::new();
     let end = |column: &str| results.number(&format!("protocol.all.{column}"));
     let (least, most) = (end("least")?, end("largest")?);

@@ -2,8 +2,8 @@
 
 use super::encoding::{Look, SIGMA_LABEL};
 use super::prelude::*;
+use crate::experiments::Results;
 use crate::experiments::theory::comparison::interpolate;
-use crate::experiments::{Results, sweep};
 use crate::params::printed_threshold;
 use literate::table::Table;
 
@@ -13,7 +13,7 @@ const SIGMAS: (f64, f64) = (0.055, 0.165);
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let table = |name| results.table(name);
     let (missing, shares) = (table("nucleation.times")?, table("nucleation.shares")?);
-    let masses = sweep::main_sweep(results)?.ensemble.chain.masses;
+    let masses = results.number("sweep.run.gaps")? as usize - 1;
     let sheet = Sheet::new(8600);
     chains(&sheet, table("nucleation.chains")?, shares, table("sweep.rows")?, masses)?;
     times(&sheet, missing)?;
@@ -57,9 +57,9 @@ fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table, masses: u
 }
 
 fn times(sheet: &Sheet, found: &Table) -> Drawn {
-    let x = Axis::decades(0, 4, 1, "time *T* (1/*ω*)").between(8.0, 9e3);
+    let x = Axis::decades(0, 4, 1, "time *T* (1/*ω*)").between(8.0, 3e3);
     let y = Axis::decades(-6, 0, 2, "1 − *p*_{*T*}/*p*_{rest}");
-    let panel = sheet.lettered("(b)", Frame::new(1150, 5250, 8150, 7650), x, y)?;
+    let panel = sheet.lettered("(b)", Frame::new(1150, 5250, 7150, 7650), x, y)?;
     let panel = panel.outside(Outside::Cut);
     let sigmas = found.distinct("sigma")?;
     let three = [sigmas.first().copied(), Some(printed_threshold()), sigmas.last().copied()];

@@ -23,10 +23,11 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
 
 fn shares(sheet: &Sheet) -> Drawn {
     let x = Axis::linear(RANGE.0, RANGE.1, 0.1, 2, "*p N*");
-    let y = Axis::decades(-6, 0, 1, "*k*^{∗}/*N*").between(4e-7, 1.0);
+    let y = Axis::decades(-6, 0, 2, "*k*^{∗}/*N*").between(4e-7, 1.0);
     let panel =
         sheet.lettered("(a)", Frame::new(1150, 430, 8150, 3730), x, y)?.outside(Outside::Cut);
-    // Beyond their jumps, which end in discs, all lie on the limit, and are data only.
+    // The ground on which all lie beyond their jumps, which end in discs.
+    panel.curve("limit", &large::limit(), Stroke::solid(GREY, 2 * LINE + 8))?;
     for (place, vertices) in DRAWN_VERTICES.into_iter().enumerate() {
         let colour = ordered(place, DRAWN_VERTICES.len());
         let stroke = Stroke::solid(colour, LINE);
@@ -34,7 +35,7 @@ fn shares(sheet: &Sheet) -> Drawn {
         let [before, after] = large::shares(vertices);
         let name = format!("N = {vertices}");
         panel.curve(&name, &before, stroke)?;
-        panel.record(&name, after.iter().copied());
+        panel.curve(&name, &after, stroke)?;
         let jump: Vec<_> = before.last().into_iter().chain(after.first()).copied().collect();
         panel.guide("jump", &jump, Stroke::dashed(colour, THIN, DOTTED))?;
         let disc = (Symbol::Disc, LARGE, Stroke::solid(colour, THIN));
@@ -42,12 +43,11 @@ fn shares(sheet: &Sheet) -> Drawn {
         let name = format!("*N* = {}", power_of_ten(vertices.ilog10() as i32));
         panel.label(&name, (RANGE.0, 1.0 / vertices as f64), (1, -1), colour)?;
     }
-    panel.curve("limit", &large::limit(), Stroke::dashed(ORANGE, LINE, LONG))?;
-    panel.label("limit: max(0, 1 − 1/(*p N*))", (1.17, 1.0 - 1.0 / 1.17), (0, -3), ORANGE)
+    panel.label("limit: max(0, 1 − 1/(*p N*))", (1.17, 1.0 - 1.0 / 1.17), (0, -3), GREY)
 }
 
 fn jumps(sheet: &Sheet, table: &Table) -> Drawn {
-    let x = Axis::decades(1, 6, 1, "*N*");
+    let x = Axis::decades(1, 6, 1, "*N*").between(7.0, 1.4e6);
     let y = Axis::decades(-3, 0, 1, "*k*^{∗}/*N* at the jump");
     let panel = sheet.lettered("(b)", Frame::new(1150, 5250, 8150, 7550), x, y)?;
     let rule = table.curve(&[], "n", "rule")?;

@@ -43,17 +43,21 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
             let (setting, x) = (row.setting, time(row.setting)?);
             Some(rivals::Point { setting, x, y: 100.0 * share.value, interval: Some(interval) })
         };
-        rivals::draw(&panel, &rivals::all_by_method(&own, point), &[])?;
+        // Lines between settings would cross one another.
+        let alone = rivals::all_by_method(&own, point).into_iter().flat_map(|(method, points)| {
+            points.into_iter().map(move |point| (method, vec![point]))
+        });
+        rivals::draw(&panel, &alone.collect(), &[])?;
         let engine = Setting { method: MethodName::Certified, value: 0.0, stop: 0.0 };
         let at = time(engine).map(|time| (time, 0.0));
         panel.unrecorded().markers("engine", at.as_slice(), encoding::method(engine.method))?;
     }
     let methods = MethodName::ALL.into_iter().filter(|method| *method != MethodName::Truth);
     for (i, method) in methods.enumerate() {
-        let (x, y) = ([1100, 2950, 4250, 6300][i % 4], 7200 + 400 * (i as i32 / 4));
+        let (x, y) = ([1150, 3000, 4450, 6550][i % 4], 7200 + 400 * (i as i32 / 4));
         sheet.area.draw(&markers(vec![(x, y)], encoding::method(method)))?;
         let style = words(SMALL, INK, HPos::Left, VPos::Center);
-        sheet.area.draw_text(method.title(), &style, (x + 130, y))?;
+        sheet.area.draw_text(method.title(), &style, (x + 190, y))?;
     }
     let description = describe!(
         "Difference of the mean number of impacting gaps from the engine's against time, for {} questions; each mark, with its 95 % interval, \

@@ -55,7 +55,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         |e: &Entry, y: f64, interval| Some(Point { setting: e.setting, x: time(e)?, y, interval });
     let median_error = |e: &Entry| point(e, e.errors?[0], e.errors);
     let share_missed = |e: &Entry| point(e, e.misses as f64 / e.tried.max(1) as f64, None);
-    rivals::key(&errors, 110.0, [1e-5, 3e-7, 1e-8])?;
+    rivals::key(&errors, 110.0, [1e-7, 3e-9, 1e-10])?;
     rivals::draw(&errors, &by_method(&race.entries, median_error), &NAMES_IN_A)?;
     rivals::better(&errors, (0.7, 1e-10), (0.35, 1e-13))?;
     rivals::draw(&misses, &by_method(&race.entries, share_missed), &NAMES_IN_B)?;

@@ -15,7 +15,7 @@ const ROUNDING: f64 = f64::EPSILON / 2.0;
 const NAMES_IN_A: [Place; 3] = [
     Place { method: Certified, setting: FINEST, offset: (0, 2) },
     Place { method: Advancement, setting: 2, offset: (-2, 0) },
-    Place { method: RungeKutta, setting: 3, offset: (2, 0) },
+    Place { method: RungeKutta, setting: 3, offset: (3, 1) },
 ];
 
 /// The same in (b), for other programs: name of the row, name here.
@@ -29,10 +29,11 @@ const PROGRAMS: [(&str, &str, usize, (i32, i32)); 6] = [
 ];
 
 /// The same for (c).
-const NAMES_IN_C: [Place; 3] = [
+const NAMES_IN_C: [Place; 4] = [
     Place { method: Certified, setting: FINEST, offset: (-2, 0) },
     Place { method: Sampled, setting: 0, offset: (-1, 2) },
     Place { method: Advancement, setting: 2, offset: (0, 3) },
+    Place { method: RungeKutta, setting: 1, offset: (-2, 0) },
 ];
 
 /// Returns the time in which an error ε grows to [`DISPLACED`], ln([`DISPLACED`]/ε)/λ, and its
@@ -91,8 +92,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let Some((first, last)) = points.first().zip(points.last()) else { continue };
         let [from, to] = [first, last].map(|point| in_powers(point.setting.value));
         let (words, at, offset, colour) = match method {
-            Advancement => (format!("{from} to {to}"), points.get(2), (-2, 2), INK),
-            RungeKutta => (format!("{from} to {to}"), points.get(2), (2, 0), INK),
+            Advancement => (format!("{from} to {to}"), points.get(2), (-2, 3), INK),
+            RungeKutta => (format!("{from} to {to}"), points.get(3), (3, 4), INK),
             Sampled => (format!("sampling, {from} to {to}"), Some(last), (1, -2), INK),
             Verlet => (from, Some(first), (0, -1), ORANGE),
             _ => continue,
@@ -104,8 +105,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
             by_time.label_nearby(&to, (last.x, last.y), (0, -1), colour)?;
         }
     }
-    rivals::better(&by_time, (2500.0, 0.68 * top), (1300.0, 0.79 * top))?;
-    rivals::better(&others, (0.5, 0.5 * top), (0.28, 0.7 * top))?;
+    rivals::better(&by_time, (400.0, 0.68 * top), (210.0, 0.79 * top))?;
+    rivals::better(&others, (400.0, 0.68 * top), (210.0, 0.79 * top))?;
     let growth = race.growth.growth().map_or("unknown".into(), |g| short(g.value, 3));
     let description = describe!(
         "Time up to which a run has every impact right, n = {}, σ = {}: against measured time over the engine's (a) for this program, \
