@@ -124,8 +124,10 @@ function chain(bench) {
     of_jump.hidden = !curves.jump?.jumps;
     of_earlier.replaceChildren(...earlier.map(([{ label }, strength]) => key("blue", `your chains at ${label}`, "dot", strength)));
     const own = whole(run_here(means));
+    picture.fade(ensemble.strength());
     picture.line(own, "blue", [], 1);
     picture.marks(own, "blue", 4);
+    picture.fade(1);
     picture.marks(whole(points), "blue", 2.5);
     picture.marks(whole([last]), "blue", 6);
   }

@@ -18,26 +18,22 @@ for (const cell of all(".lists td.long")) {
   if (place) cell.hidden = true;
 }
 for (const table of all(".lists:has(td.long[hidden])")) table.tHead.rows[0].lastElementChild.hidden = true;
-// On a phone the rows of a table that is longer than some screens show their keys, and open.
+// On a phone the rows of a table that is longer than some screens show their keys, and open, if
+// these tell them apart.
 const SCREENS = 3;
 const shut = (row, is_shut) => {
   row.classList.toggle("shut", is_shut);
-  row.cells[0].setAttribute("aria-expanded", !is_shut);
+  row.cells[0].querySelector(".turn").setAttribute("aria-expanded", !is_shut);
 };
 for (const table of phone.matches ? all(".lists") : []) {
   const rows = all("tbody tr", table);
-  if (rows.length >= LONG || table.offsetHeight < SCREENS * innerHeight) continue;
+  const keys = new Set(rows.map((row) => row.cells[0].textContent));
+  if (keys.size < rows.length || rows.length >= LONG || table.offsetHeight < SCREENS * innerHeight) continue;
   for (const row of rows) {
     const [key] = row.cells;
+    key.prepend(make("button", { type: "button", className: "turn", ariaLabel: `Details of ${key.textContent}` }));
+    key.addEventListener("click", ({ target }) => target.closest("a, .value") || shut(row, !row.classList.contains("shut")));
     shut(row, true);
-    Object.assign(key, { tabIndex: 0, role: "button" });
-    const turn = () => shut(row, !row.classList.contains("shut"));
-    key.addEventListener("click", ({ target }) => target.closest("a, .value") || turn());
-    key.addEventListener("keydown", (event) => {
-      if (event.target !== key || (event.key !== "Enter" && event.key !== " ")) return;
-      event.preventDefault();
-      turn();
-    });
   }
 }
 // A row that a link leads to is open.
