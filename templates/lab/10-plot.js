@@ -109,7 +109,7 @@ function plot(canvas, height, [left, right, below], [low, high, beside], told) {
     c.restore();
   };
   const all = Object.entries(drawn).map(([name, draw]) => [name, inside(draw)]);
-  // What is drawn from now on is this faint; where x lies in the picture, and its upper and lower edge.
+  // `fade` makes faint what is drawn from now on; `at` says where x lies, between which heights.
   return { ...Object.fromEntries(all), fade: (share) => (alpha = share), at: (x) => [px(x), box.y, floor] };
 }
 

@@ -59,7 +59,7 @@ function computed({ chain, transient, window }) {
 /** What the curves say, in a sentence or two. */
 function finding({ half, end, jump, holds, label, protocol: { transient, window } }) {
   if (!holds) return `The faint curves are for ${label}; for your settings we have none.`;
-  const times = `At T = ${transient} and W = ${window}`;
+  const times = `At *T* = ${transient} and *W* = ${window}`;
   const place = half ? `rises past half of all gaps at *σ* = ${bracketed(half)}` : "passes half of all gaps near the least *σ* that we ran";
   const mode = {
     true: () => ` The most likely number jumps to all gaps at ${bracketed(jump.sigma)}.`,
