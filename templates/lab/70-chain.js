@@ -187,13 +187,14 @@ function chain(bench) {
     latest = { asked, found: { ...found, picture: found.picture.slice() } };
     await masses.show(latest.found, asked);
     await draw_all();
+    masses.draw();
     Object.assign(bench.dataset, { time: performance.now() - began, digest: found.digest, bytes: found.bytes });
     prove(asked, found);
   }
   function draw() {
     if (!latest) return;
-    masses.draw();
     draw_chain(latest, "");
+    masses.draw();
     if (latest.asked.forces.drawn) draw_rise();
   }
   const guarded = async (what) => {
