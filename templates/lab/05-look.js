@@ -11,6 +11,7 @@ document.head.append(make("style", { textContent: `
   .bench output button { font: inherit; color: var(--link); background: none; border: 0; padding: 0; text-align: left; text-decoration: underline; cursor: pointer; }
   .bench .controls { max-width: none; margin: 0; }
   .bench .controls button { min-width: 0; }
+  .pair .controls { margin-top: 0.5rem; }
   .bench output { display: block; font-size: 0.95rem; min-height: 1.5em; }
   .bench .controls output { flex: 1 1 12rem; }
   .bench :is(code, .controls a) { overflow-wrap: anywhere; }
@@ -20,6 +21,11 @@ document.head.append(make("style", { textContent: `
   .bench details { font-size: 0.95rem; }
   .bench details > *, .bench details > .controls { margin-top: 0.8rem; }
   .pair { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(18rem, 100%), 1fr)); gap: 1rem; }
+  .pair output { margin: 0.3rem 0 0; }
+
+  /* The moment that is seen in motion. */
+  .place { position: relative; }
+  .cursor { position: absolute; width: 0; border-left: 1.5px solid var(--blue); pointer-events: none; }
 
   /* What a line or a mark means. */
   .key { display: inline-block; margin-right: 1.2em; }
@@ -33,16 +39,19 @@ document.head.append(make("style", { textContent: `
 
   /* The slider of the force, and what acts on the one chain. */
   .first { display: grid; grid-template-columns: minmax(0, 1fr) max-content; gap: 0.6rem 1.2rem; align-items: center; }
-  .first .fields { max-width: 34rem; grid-template-columns: 1fr; }
+  .first .fields:first-child { max-width: 34rem; grid-template-columns: 1fr; }
+  .first .fields:last-child { grid-column: 1 / -1; }
 
   /* Some of the masses, moving. */
   .bench .row canvas { height: 84px; }
   .row { display: grid; gap: 0.1rem; }
   .row .controls { font-size: 0.9rem; gap: 0.2rem 0.8rem; }
   .row button { padding: 0.05rem 0.6rem; }
+  .row .controls span { flex: 1 1 10rem; min-width: 0; }
 
   @media (max-width: 40rem) {
-    .first { grid-template-columns: minmax(0, 1fr); gap: 0.3rem; }
+    .first { grid-template-columns: minmax(0, 1fr); gap: 0.4rem; }
+    .first .controls { order: 1; }
     .bench .pair { gap: 0.3rem; }
     .bench canvas { height: 216px; }
     .bench .row canvas { height: 70px; }

@@ -109,8 +109,8 @@ function plot(canvas, height, [left, right, below], [low, high, beside], told) {
     c.restore();
   };
   const all = Object.entries(drawn).map(([name, draw]) => [name, inside(draw)]);
-  // What is drawn from now on is this faint.
-  return { ...Object.fromEntries(all), fade: (share) => (alpha = share) };
+  // `fade` makes faint what is drawn from now on; `at` says where x lies, between which heights.
+  return { ...Object.fromEntries(all), fade: (share) => (alpha = share), at: (x) => [px(x), box.y, floor] };
 }
 
 /** Impacts in space and time, a dot for each gap and column of time. */

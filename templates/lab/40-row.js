@@ -58,8 +58,9 @@ function draw_row(canvas, { chain, from, count, positions, flashes, time }) {
   }
 }
 
-function row() {
-  const [canvas, told] = [make("canvas"), make("span")];
+/** The row with its button; `passed` hears of each moment that is shown. */
+function row(passed) {
+  const [canvas, told] = [make("canvas"), key("blue", "", "dot")];
   const play = button("Play", () => ((playing = !playing), (last = undefined), step()));
   const node = make("div", { className: "row" }, canvas, make("div", { className: "controls" }, play, told));
   let [playing, seen, asked, state, module, last, opened] = [!matchMedia("(prefers-reduced-motion: reduce)").matches, true];
@@ -75,7 +76,9 @@ function row() {
     if (!state) return;
     draw_row(canvas, { ...state, chain: asked.chain });
     play.textContent = playing ? "Pause" : "Play";
-    told.textContent = `masses ${state.from + 1} to ${state.from + state.count} at t = ${state.time.toFixed(1)}; a flash is an impact`;
+    const of = asked.chain.masses > state.count ? ` of ${asked.chain.masses}` : "";
+    told.replaceChildren(...rich(`masses ${state.from + 1} to ${state.from + state.count}${of} at *t* = ${state.time.toFixed(1)}, blue below; a flash is an impact`));
+    passed(state.time);
   }
   let waiting;
   function step() {

@@ -64,6 +64,8 @@ function many(asked, changed) {
   return {
     node,
     points: () => means(shares),
+    // Points of few chains are faint.
+    strength: () => (running ? 0.3 + (0.7 * progress.value) / progress.max : 1),
     /** Forgets what was run, as after a change of the chain. */
     clear() {
       shares = new Map();

@@ -2,14 +2,15 @@
 
 function chain(bench) {
   const drawn = base.forces.drawn;
-  const FIRST = { sigma: drawn.sigma, T: base.transient, W: base.window, n: base.chain.masses, r: base.chain.restitution, realisation: drawn.realisation, seed: drawn.seed };
+  // The second chain at the printed threshold, in which impacts spread to most gaps.
+  const FIRST = { sigma: drawn.sigma, T: base.transient, W: base.window, n: base.chain.masses, r: base.chain.restitution, realisation: 1, seed: drawn.seed };
   const initial = from_address("chain", FIRST) ?? FIRST;
   const force = fields([
     { name: "sigma", title: "force *σ*", unit: "*dω*²", slider: [0, 0.3], step: 0.0025, bounds: [0, 1], value: initial.sigma },
   ], () => update());
   const times = fields([
-    { name: "T", title: "transient *T*", unit: "1/*ω*", stops: TRANSIENTS, bounds: [0, 10000], value: initial.T },
-    { name: "W", title: "window *W*", unit: "1/*ω*", stops: WINDOWS, bounds: [1, 10000], value: initial.W },
+    { name: "T", title: "wait *T*", unit: "1/*ω*", stops: TRANSIENTS, bounds: [0, 10000], value: initial.T },
+    { name: "W", title: "count for *W*", unit: "1/*ω*", stops: WINDOWS, bounds: [1, 10000], value: initial.W },
   ], () => update());
   const more = fields([
     { name: "n", title: "masses *n*", slider: [1, 1000], step: 1, whole: true, bounds: [1, 1000], value: initial.n },
@@ -29,19 +30,21 @@ function chain(bench) {
   });
   const [told, proof, said_of_times] = [make("output"), make("output"), make("output")];
   const [where, against] = [make("canvas"), make("canvas")];
-  const [masses, link] = [row(), shared()];
-  let latest;
+  const cursor = make("div", { className: "cursor", hidden: true });
+  const [masses, link] = [row(put_cursor), shared()];
+  let [latest, place] = [undefined, undefined];
   const ensemble = many(() => latest.asked, () => latest && draw_rise());
   const [of_jump, of_earlier] = [key("purple", "the most likely number jumps to all gaps", "peak"), make("span")];
-  const legend = keys(["blue", "your chains, the last one large", "dot"], ["red", "mean of chains with an impact"], ["red", "mean of all chains", "dashed"], ["pale", "nine chains in ten", "band"],
-    ["green", "theory, Eq. (25)"], ["ink", `printed: ${printed}`, "dotted"]);
+  const waits = WAITS.map(({ name, protocol: { transient, window } }) => `${name}: *T* = ${transient}, *W* = ${window}`).join("; ");
+  const legend = keys(["blue", "your chains, the last one large", "dot"], ["red", "mean of our chains with an impact; a disc at half of all gaps"], ["red", `the same for a ${waits}`, "", 0.45],
+    ["red", "mean of all our chains", "dashed"], ["pale", "nine chains in ten", "band"], ["green", "theory, Eq. (25)"]);
   legend.append(of_jump, of_earlier);
   bench.append(
     masses.node,
-    make("div", { className: "first" }, force.node, make("div", { className: "controls" }, another, link.copy_link)),
-    times.node,
-    make("div", { className: "pair" }, where, against),
-    told, proof, said_of_times, ensemble.node,
+    make("div", { className: "first" }, force.node, make("div", { className: "controls" }, another, link.copy_link), times.node),
+    make("div", { className: "pair" },
+      make("div", {}, make("div", { className: "place" }, where, cursor), told, proof),
+      make("div", {}, against, said_of_times, ensemble.node)),
     legend,
     make("details", {}, make("summary", {}, "Masses, restitution, seed; runs of this edition to repeat; link and command"), more.node, make("div", { className: "controls" }, choice), link.node));
 
@@ -61,13 +64,22 @@ function chain(bench) {
     const until = from + window;
     told.replaceChildren(...rich(`${found.distinct} of ${found.gaps} gaps have impacts from *t* = ${said(from)} to ${said(until)}; impacts in all: ${found.impacts.toLocaleString("en")}${state}.`));
     const picture = plot(where, tall(300), [0, until, "time *t* (1/*ω*)"], [0, found.gaps, "gap"], `Gap against time, a mark for each impact. ${told.textContent}`);
-    picture.band([[from, 0, found.gaps], [until, 0, found.gaps]], "orange", 0.35);
+    picture.band([[from, 0, found.gaps], [until, 0, found.gaps]], "orange", 0.22);
     picture.words("counted", Math.min(from + window / 2, 0.88 * until), found.gaps, "orange");
     picture.image(impacts(found));
     if (found.impacts === 0 && state === "") picture.words("no impact", until / 2, found.gaps / 2);
     // The gaps between the masses that are seen in motion.
     const [low, high] = masses.shown();
     picture.line([[0, low], [0, Math.min(high + 1, found.gaps)]], "blue", [], 10);
+    place = picture.at;
+  }
+
+  /** Marks the moment that the row of masses shows. */
+  function put_cursor(time) {
+    cursor.hidden = place === undefined;
+    if (cursor.hidden) return;
+    const [left, top, bottom] = place(time);
+    Object.assign(cursor.style, { left: `${left}px`, top: `${top}px`, height: `${bottom - top}px` });
   }
 
   // Chains that differ in nothing but σ, seed and realisation are shown together, and fainter those
@@ -89,14 +101,19 @@ function chain(bench) {
     picture.band(whole(curves.band), "pale");
     picture.line(whole(curves.all), "red", [5, 4]);
     picture.line(whole(curves.hit), "red");
+    if (curves.half) picture.marks([[curves.half.value, gaps / 2]], "red", 4);
     if (curves.jump?.jumps) picture.peak(curves.jump.sigma.value, "purple");
+    if (curves.holds) draw_waits(picture, gaps, whole);
+    picture.fade(0.3);
+    picture.line(whole(curves.few), "red", [], 1);
     picture.fade(1);
     if (!curves.holds) picture.words(`for ${curves.label}`, 0.005, 1.01 * gaps, "grey", 0);
-    picture.line([[printed, 0], [printed, gaps]], "ink", [2, 4], 1.5);
+    picture.line([[printed, 0], [printed, 1.02 * gaps]], "ink", [2, 4], 1.5);
+    picture.words(`printed: ${printed}`, printed - 0.004, 1.02 * gaps, "ink", 1);
     picture.line(whole(theory), "green");
-    // The name is beside its curve, where that rises.
-    const rises = (theory.find(([, share]) => share > 0.5) ?? [0.3])[0];
-    picture.words("theory", rises + 0.032, 0.5 * gaps, "green");
+    // The name is beside its curve, where that begins to rise.
+    const rises = (theory.find(([, share]) => share > 0.1) ?? [0.25])[0];
+    picture.words("theory", rises + 0.006, 0.05 * gaps, "green", 0);
     const earlier = sets.slice(0, -1).map((one, i) => [one, 0.6 ** (sets.length - 1 - i)]);
     for (const [one, strength] of earlier) {
       picture.fade(strength);
@@ -107,10 +124,22 @@ function chain(bench) {
     of_jump.hidden = !curves.jump?.jumps;
     of_earlier.replaceChildren(...earlier.map(([{ label }, strength]) => key("blue", `your chains at ${label}`, "dot", strength)));
     const own = whole(run_here(means));
+    picture.fade(ensemble.strength());
     picture.line(own, "blue", [], 1);
     picture.marks(own, "blue", 4);
+    picture.fade(1);
     picture.marks(whole(points), "blue", 2.5);
     picture.marks(whole([last]), "blue", 6);
+  }
+
+  /** How far the rise moves between the shortest wait and the longest. */
+  function draw_waits(picture, gaps, whole) {
+    picture.fade(0.45);
+    for (const { hit } of WAITS) picture.line(whole(hit), "red");
+    picture.fade(1);
+    const [[short, left], [long, right]] = WAITS.map(({ name, half }) => [name, half.value]);
+    picture.words(short, left + 0.012, 0.46 * gaps, "red", 0);
+    picture.words(long, right - 0.006, 0.52 * gaps, "red", 1);
   }
 
   async function draw_all() {
@@ -139,13 +168,13 @@ function chain(bench) {
     if (known) {
       const same = known.found.digest === found.digest;
       const eight = ({ digest }) => make("code", { textContent: digest.slice(0, 8), title: digest });
-      proof.append(make("strong", { textContent: same ? "✓ same bits" : "✗ NOT the same bits" }), " as this edition: SHA-256 of all impacts ", eight(found));
-      if (!same) proof.append(", here; there ", eight(known.found));
+      proof.append(make("strong", { textContent: same ? "✓ same bits" : "✗ NOT the same bits" }), " as in this edition (", eight(found), ")");
+      if (!same) proof.append("; there ", eight(known.found));
     }
     if (found.impacts === 0) proof.append(known ? ". " : "", "No impact: neighbours never swing so differently that the gap between them, of width d, closes. ");
     if (!known && asked.forces.drawn) {
       const near = nearest(asked);
-      proof.append("This edition has no digest for these settings; the nearest run with one: ", button(runs[near].name, () => repeat(near)));
+      proof.append("Does your machine find our bits? Try ", button(runs[near].name, () => repeat(near)));
     }
   }
 
@@ -158,13 +187,14 @@ function chain(bench) {
     latest = { asked, found: { ...found, picture: found.picture.slice() } };
     await masses.show(latest.found, asked);
     await draw_all();
+    masses.draw();
     Object.assign(bench.dataset, { time: performance.now() - began, digest: found.digest, bytes: found.bytes });
     prove(asked, found);
   }
   function draw() {
     if (!latest) return;
-    masses.draw();
     draw_chain(latest, "");
+    masses.draw();
     if (latest.asked.forces.drawn) draw_rise();
   }
   const guarded = async (what) => {

@@ -36,7 +36,7 @@ function theory(bench) {
     for (let i = 0; i < 40; i += 1) [low, up] = module.p((low + up) / 2) < p ? [(low + up) / 2, up] : [low, (low + up) / 2];
     const beside = plot(all[3], 240, [0, 0.4, "*σ* (*dω*²)"], [0, 1.05, "*μ*/*N*"], `μ/N against σ, beside the simulation; p = ${p} belongs to σ = ${said(up)}.`);
     beside.line(SIGMAS.map((sigma) => [sigma, module.mean(N, module.p(sigma)) / N]), "green");
-    beside.line(curve.rows.map(([sigma, , kept]) => [sigma, kept / curve.gaps]), "red");
+    beside.line(lines(curve.rows).hit, "red");
     beside.marks([[up, mean / N]], "blue", 4);
   }
   const update = async () => {

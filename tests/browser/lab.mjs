@@ -114,13 +114,13 @@ async function chains(page, name, figure, { report, check, stays_narrow }) {
 
   // A thousand masses for long, given up for another run half-way; then as much memory as before.
   await set("masses n", "1000");
-  await set("transient T", "9000");
+  await set("wait T", "9000");
   await appears(told.filter({ hasText: "so far" }), check, `${name}: nothing is told on the way`);
-  await set("transient T", "100");
+  await set("wait T", "100");
   await appears(told.filter({ hasText: "of 1001 gaps" }).filter({ hasNotText: "so far" }), check, `${name}: a run is not given up for another`);
   check(Number(await data("bytes")) < 32e6, `${name}: the module takes ${await data("bytes")} bytes`);
 
-  for (const [label, value] of [["force σ", ""], ["force σ", "-1"], ["masses n", "0"], ["masses n", "1001"], ["masses n", "2.5"], ["transient T", "1e9"], ["window W", "0"], ["restitution r", "2"]]) {
+  for (const [label, value] of [["force σ", ""], ["force σ", "-1"], ["masses n", "0"], ["masses n", "1001"], ["masses n", "2.5"], ["wait T", "1e9"], ["count for W", "0"], ["restitution r", "2"]]) {
     const good = await figure.getByLabel(`${label}, typed`).inputValue();
     await set(label, value);
     await appears(told.filter({ hasText: "is not allowed; give a" }), check, `${name}: ${label} = ${value}`);
@@ -136,12 +136,12 @@ async function times_move_the_curves(figure, told, check, name, set) {
   const last = await figure.evaluate(() => Math.max(...LAB.protocols.map(({ protocol }) => protocol.transient)));
   const places = [];
   for (const key of ["Home", "End"]) {
-    await figure.getByLabel("transient T (1/ω)", { exact: true }).press(key);
+    await figure.getByLabel("wait T (1/ω)", { exact: true }).press(key);
     await appears(said.filter({ hasText: key === "Home" ? "At T = 10 " : `At T = ${last} ` }), check, `${name}: ${key} of T`);
     places.push(Number((await said.innerText()).match(/at σ = (\d\.\d+)\(/)?.[1] ?? 0));
   }
   check(places[0] > 0.12 && places[1] < places[0], `${name}: the rise lies at ${places}`);
-  await set("transient T", "500");
+  await set("wait T", "500");
   await appears(said.filter({ hasText: /At T = 500 and W = 200 .* jumps to all gaps at 0\.11/ }), check, `${name}: no jump at our times`);
   await set("restitution r", "0.7");
   await appears(said.filter({ hasText: "for n = 100, r = 0.8, T = 500, W = 200; for your settings" }), check, `${name}: curves hold for r = 0.7`);
@@ -192,9 +192,11 @@ async function masses_move(open, check) {
   const canvas = page.locator(".row canvas");
   const seen = () => canvas.evaluate((one) => one.toDataURL());
   await appears(page.locator(".row span").filter({ hasText: "t =" }), check, "no row of masses");
-  const before = await seen();
+  const place = () => page.locator(".cursor").evaluate((cursor) => parseFloat(cursor.style.left));
+  const [before, first] = [await seen(), await place()];
   await page.waitForTimeout(400);
   check(before !== (await seen()), "the row of masses does not move");
+  check((await place()) > first, "no cursor shows its time");
   await page.locator(".row").getByRole("button", { name: "Pause" }).click();
   const still = await seen();
   await page.waitForTimeout(300);

@@ -7,6 +7,7 @@ import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { labs } from "./lab.mjs";
 import { tasks } from "./tasks.mjs";
+import { layout } from "./layout.mjs";
 
 const report = resolve(process.argv[2] ?? "../../paper");
 const pictures = process.argv[3];
@@ -46,7 +47,9 @@ async function open(file, width, colorScheme, { before, loads, ...options } = {}
     const url = request.url();
     const beside = url.slice(new URL(".", page_url).href.length);
     const asked = /^(report\.css|report\.js|cards\.js|search\.js|points\.js|fonts\/[^/]*\.woff2)$/.test(beside) || ((loads || file === "index.html") && beside === "lab.js");
-    check(asked || request.isNavigationRequest() || url.split("#")[0] === page_url.split("#")[0] || url.startsWith("data:"), `a request: ${url.slice(0, 100)}`);
+    // Whether the project is around the folder.
+    const around = url.endsWith("/CONTRIBUTING.md");
+    check(asked || around || request.isNavigationRequest() || url.split("#")[0] === page_url.split("#")[0] || url.startsWith("data:"), `a request: ${url.slice(0, 100)}`);
   });
   page.on("console", (message) => {
     check(!["error", "warning"].includes(message.type()), `console: ${message.text()}`);
@@ -417,6 +420,7 @@ for (const of of Object.entries(PAGES)) {
   await Promise.all([["middle-dark", 820, "dark"], ["phone-light", 390, "light"]].map((kind) => read(of, kind)));
 }
 await tasks({ report, open, check });
+await layout({ browser, report, open, check });
 await labs({ report, open, check, stays_narrow, accessible, pictures });
 
 // Without scripts all that is to be read is there, and nothing looks as if it could be pressed.

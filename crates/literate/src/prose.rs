@@ -31,7 +31,7 @@ const STYLE: &str = joined!(
 );
 #[rustfmt::skip]
 const SCRIPT: &str = concat!("\"use strict\";\n{\n", joined!(
-    "script", ".js", "start", "labs", "cards", "groups", "points", "previews", "contents", "search", "cite", "folds", "filters", "end"
+    "script", ".js", "start", "outside", "labs", "cards", "groups", "enlarge", "points", "previews", "contents", "search", "cite", "folds", "filters", "end"
 ), "}\n");
 
 #[derive(Debug, thiserror::Error)]

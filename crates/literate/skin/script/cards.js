@@ -8,12 +8,13 @@ const open = async (value) => {
   card.querySelector("header span").innerHTML = title;
   card.querySelector("p").innerHTML = lead;
   card.querySelector("dl").innerHTML = numbers.map((number) => rows[number]).join("");
+  if (is_copy) unlink(card);
   card.hidePopover();
   card.showPopover({ source: value });
   card.scrollTop = 0;
   // On a phone the card is at the end of the window, and its number goes above it.
   const over = value.getBoundingClientRect().bottom + 8 - card.getBoundingClientRect().top;
-  if (over > 0 && matchMedia("(max-width: 40rem)").matches) scrollBy(0, over);
+  if (over > 0 && phone.matches) scrollBy(0, over);
 };
 const values = all("[data-card]");
 for (const sign of all("a[data-card]")) {

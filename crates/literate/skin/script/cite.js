@@ -4,6 +4,7 @@ for (const entry of all(".cite pre")) {
   copy.addEventListener("click", async () => {
     getSelection().selectAllChildren(entry);
     const copied = await navigator.clipboard?.writeText(entry.textContent).then(() => true, () => false);
+    entry.scrollIntoView({ block: "nearest" });
     copy.textContent = copied ? "Copied" : "Selected";
   });
   entry.before(copy);

@@ -1,5 +1,4 @@
 // Long tables can be filtered by the columns that have few different words.
-const LONG = 40;
 const FEW = 12;
 for (const table of all("figure.table table")) {
   const lines = all("tbody tr", table);

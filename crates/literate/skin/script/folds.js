@@ -3,7 +3,7 @@ for (const cell of all(".lists td.long")) {
   const start = document.createRange();
   start.setStart(cell, 0);
   const texts = document.createTreeWalker(cell, NodeFilter.SHOW_TEXT);
-  let left = 40;
+  let left = 26;
   while (left > 0 && texts.nextNode()) {
     const { data } = texts.currentNode;
     start.setEnd(texts.currentNode, data.slice(left).search(/\s|$/) + Math.min(left, data.length));
@@ -18,10 +18,29 @@ for (const cell of all(".lists td.long")) {
   if (place) cell.hidden = true;
 }
 for (const table of all(".lists:has(td.long[hidden])")) table.tHead.rows[0].lastElementChild.hidden = true;
+// On a phone the rows of a table that is longer than some screens show their keys, and open, if
+// these tell them apart.
+const SCREENS = 3;
+const shut = (row, is_shut) => {
+  row.classList.toggle("shut", is_shut);
+  row.cells[0].querySelector(".turn").setAttribute("aria-expanded", !is_shut);
+};
+for (const table of phone.matches ? all(".lists") : []) {
+  const rows = all("tbody tr", table);
+  const keys = new Set(rows.map((row) => row.cells[0].textContent));
+  if (keys.size < rows.length || rows.length >= LONG || table.offsetHeight < SCREENS * innerHeight) continue;
+  for (const row of rows) {
+    const [key] = row.cells;
+    key.prepend(make("button", { type: "button", className: "turn", ariaLabel: `Details of ${key.textContent}` }));
+    key.addEventListener("click", ({ target }) => target.closest("a, .value") || shut(row, !row.classList.contains("shut")));
+    shut(row, true);
+  }
+}
 // A row that a link leads to is open.
 const unfold = () => {
   const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));
   const row = target?.closest("tr");
+  if (row?.classList.contains("shut")) shut(row, false);
   for (const fold of row ? all("details", row) : all("details.cite:target")) fold.open = true;
 };
 addEventListener("hashchange", unfold);

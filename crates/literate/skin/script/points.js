@@ -4,6 +4,15 @@
 const NEAR = 500; // in units of the drawing
 const digits = (text) => (text === "" ? "" : Number(Number(text).toPrecision(4)).toString().replace("-", "\u2212"));
 
+/** A value and its error: one digit of the error, two after a leading one, and as many of the value. */
+function with_error(value, error) {
+  const size = Number(error);
+  if (!(size > 0)) return [digits(value), digits(error)];
+  const leading = Math.floor(Math.log10(size));
+  const decimals = Math.max(0, (size < 1.95 * 10 ** leading ? 1 : 0) - leading);
+  return [value, error].map((text) => Number(text).toFixed(decimals).replace("-", "\u2212"));
+}
+
 /** Rows of a CSV file, whose fields may be quoted. */
 const cells = (line) => [...line.matchAll(/(?:^|,)(?:"((?:[^"]|"")*)"|([^,]*))/g)].map(([, quoted, bare]) => quoted?.replaceAll('""', '"') ?? bare);
 
@@ -42,8 +51,9 @@ function points_of(svg, files) {
       const [px, py] = [x(Number(of)), y(Number(value || low))];
       if (!names.has(series) || !(px >= left - 1 && px <= right + 1 && py >= top - 1 && py <= bottom + 1)) return [];
       const range = low === "" ? "" : `, interval ${digits(low)} to ${digits(high)}`;
-      const bar = error === "" ? "" : ` \u00b1 ${digits(error)}`;
-      const known = value === "" ? "" : `; ${named(head[2])}: ${digits(value)}${bar}`;
+      const [known_value, known_error] = error === "" ? [digits(value), ""] : with_error(value, error);
+      const bar = known_error === "" ? "" : ` \u00b1 ${known_error}`;
+      const known = value === "" ? "" : `; ${named(head[2])}: ${known_value}${bar}`;
       return [{ px, py, series, text: `${panel}${series}: ${named(head[1])} = ${digits(of)}${known}${range}` }];
     });
   });

@@ -10,4 +10,7 @@ const make = (tag, properties = {}, ...children) => {
 // A page on a disk can load nothing but scripts, which are loaded when they are first needed.
 const load = (src) => new Promise((onload, onerror) => document.head.append(make("script", { src, onload, onerror })));
 let POINTS_READY;
+const phone = matchMedia("(max-width: 40rem)");
+// Tables with more rows than this are filtered.
+const LONG = 40;
 

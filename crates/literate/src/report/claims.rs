@@ -93,12 +93,12 @@ pub fn printed_values(published: &Published) -> Vec<Value> {
 }
 
 /// Counts the statements as values: all, by verdict, by basis (those reproduced, and of how many),
-/// by word for a difference; sentences of the paper, those of which every reading is reproduced,
-/// and those of which only some are; and the definitions.
+/// by word for a difference; sentences, with every and with some readings reproduced; definitions.
 pub fn scorecard(claims: &[Check]) -> Vec<Value> {
     let value = |name: String, count: usize| {
         let id = format!("score.{}", name.replace(' ', "_"));
-        Value::integer(id, count).source(origin(scorecard))
+        let note = format!("In the score: {}", name.replace('_', " "));
+        Value { note, ..Value::integer(id, count).source(origin(scorecard)) }
     };
     let (judged, definitions): (Vec<&Check>, Vec<&Check>) =
         claims.iter().partition(|claim| claim.kind == Kind::Statement);

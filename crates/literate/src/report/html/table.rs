@@ -72,7 +72,7 @@ impl Page<'_> {
         let table = if is_bar { " class=\"bar\"" } else { table };
         let class = |i: usize| match is_bar {
             true => {
-                format!(" colspan=\"{}\" data-sign=\"{}\"", to_plain_text(&rows[0][i]), signs[i])
+                format!(" style=\"--n: {}\" data-sign=\"{}\"", to_plain_text(&rows[0][i]), signs[i])
             }
             false => class(i),
         };
