@@ -1,6 +1,7 @@
 //! Reads the tables that a command printed.
 
 use crate::decimal::Decimal;
+use crate::input::count;
 use crate::table::{Building, Table, no_such};
 use crate::value::{Digits, Number, Origin, Written};
 use impact_numerics::estimates::with_error;
@@ -37,7 +38,11 @@ struct Cell {
 impl<'de> Deserialize<'de> for Cell {
     fn deserialize<D: Deserializer<'de>>(reader: D) -> Result<Self, D::Error> {
         let text = Box::<RawValue>::deserialize(reader)?.get().to_string();
-        Ok(Cell { json: serde_json::from_str(&text).map_err(D::Error::custom)?, text })
+        let beyond = |_| format!("{text} is beyond double precision (print it in another unit)");
+        Ok(Cell {
+            json: serde_json::from_str(&text).map_err(beyond).map_err(D::Error::custom)?,
+            text,
+        })
     }
 }
 
@@ -64,7 +69,9 @@ pub(super) fn tables_by_name<'de, D: Deserializer<'de>>(
             let mut tables = BTreeMap::new();
             while let Some((name, table)) = map.next_entry::<String, PrintedTable>()? {
                 if tables.insert(name.clone(), table).is_some() {
-                    return Err(A::Error::custom(format!("there are two tables {name}")));
+                    return Err(A::Error::custom(format!(
+                        "two tables have the name {name} (rename one)"
+                    )));
                 }
             }
             Ok(tables)
@@ -120,7 +127,8 @@ impl PrintedTable {
     fn fault_in(&self, row: &[Cell]) -> Option<String> {
         let all = self.names().count();
         if row.len() != all {
-            return Some(format!("has {} cells for {all} names", row.len()));
+            let cells = count(row.len(), "cell");
+            return Some(format!("has {cells} for {}; null is none", count(all, "name")));
         }
         for (at, (name, Cell { json: cell, .. })) in self.names().zip(row).enumerate() {
             if cell.is_array() || cell.is_object() {

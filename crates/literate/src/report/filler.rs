@@ -122,7 +122,31 @@ impl Filler {
                 return Err(self.fault(path, offset, &problem));
             }
         }
+        for (offset, tag) in template.match_indices('«') {
+            if let Some(filter) = self.foreign_filter(&template[offset + tag.len()..]) {
+                let remedy = "write «… | significant(digits=2)», or compute it";
+                let problem = format!("`{filter}` is no filter for values; {remedy}");
+                return Err(self.fault(path, offset, &problem));
+            }
+        }
         Ok(())
+    }
+
+    /// Returns a filter that a tag puts on a value and that is made for plain numbers and words, or
+    /// `None` if there is none.
+    fn foreign_filter<'a>(&self, tag: &'a str) -> Option<&'a str> {
+        let tag = tag.split('»').next()?.trim_start_matches(['-', ' ']);
+        let mut here = &self.names;
+        for (key, _) in steps(tag) {
+            here = key.map_or(here.as_object()?.values().next(), |key| here.get(key))?;
+        }
+        let is_value = here.as_str()?.starts_with(mark::OPEN);
+        let filters = tag.split('"').step_by(2).flat_map(|part| {
+            part.match_indices('|').map(move |(bar, _)| part[bar + 1..].trim_start())
+        });
+        let names = filters
+            .map(|rest| rest.split(|c: char| !c.is_alphanumeric()).next().unwrap_or_default());
+        names.filter(|_| is_value).find(|name| !FILTERS.contains(name))
     }
 
     fn fault(&self, path: &str, offset: usize, problem: &str) -> Error {
@@ -260,6 +284,9 @@ fn steps(expression: &str) -> Vec<(Option<&str>, usize)> {
         }
     }
 }
+
+/// The filters for values.
+const FILTERS: [&str; 3] = ["percent", "significant", "otherwise"];
 
 const NOT_TRUE: &str = "the words before are no longer true";
 

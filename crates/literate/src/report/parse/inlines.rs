@@ -163,6 +163,10 @@ impl Reader<'_> {
     /// Reads what stands between brackets: `@fig:2; @fig:3` or `!claim:rise`.
     fn read_reference(&mut self, reference: &str, offset: usize) -> Result<Inline, Error> {
         if let Some(id) = reference.strip_prefix('!') {
+            if !id.contains(':') {
+                let problem = "is a box of GitHub, which no other format shows; write it in words";
+                return Err(fault(format!("[!{id}] {problem}, or a place as [!claim:id]")));
+            }
             self.add_id("claim", id, offset)?;
             return Ok(Inline::Anchor { id: id.to_string(), number: String::new() });
         }
@@ -324,8 +328,8 @@ fn forbids_formula(c: char) -> bool {
 const UNCLOSED_MARKUP: &str = "unclosed markup; complete it, or write a backslash before a sign that is \
      meant literally";
 
-const GROUP_AS_VALUE: &str = "a group or a row is named where a value is meant; name the value whole, as \
-     table[\"row\"].column";
+const GROUP_AS_VALUE: &str = "a group, a row or a key is named where a value is meant; name the value whole, as \
+     table[\"row\"].column, also one of the key";
 
 const UNCLOSED_FORMULA: &str = "an unclosed formula: Markdown ends it at an empty line, and at a line that begins \
      with +, -, *, #, >, = or 1.; move the sign to the end of the line before";

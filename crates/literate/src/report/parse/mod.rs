@@ -13,6 +13,7 @@ use super::filled::{Filled, Places};
 use super::labels::check_kind;
 use super::lint::Declared;
 use super::values::Registry;
+use crate::input;
 use crate::source::Sources;
 use pulldown_cmark::{
     Alignment, BrokenLink, CodeBlockKind, CowStr, Event, Options, Parser, Tag, TagEnd,
@@ -136,7 +137,9 @@ impl<'a> Reader<'a> {
                 Err(error) => {
                     self.errors.push(error);
                     (self.depth, self.depth_without_formulas) = (0, 0);
-                    while self.events.next_if(|(_, range)| range.start < end).is_some() {}
+                    // Cells that Markdown adds to a row are empty and begin at its end.
+                    let is_inside = |range: &Range<usize>| range.start < end || range.end <= end;
+                    while self.events.next_if(|(_, range)| is_inside(range)).is_some() {}
                 }
             }
         }
@@ -329,9 +332,13 @@ impl<'a> Reader<'a> {
             // Markdown silently cuts and fills rows.
             let (count, expected) = (cells_of(self.source(&range)), columns.len());
             if count != expected {
-                let problem = format!(
-                    "a row has {count} cells in a table of {expected} columns; write a bar within a cell as \\|"
-                );
+                let has = input::count(count, "cell");
+                let remedy = if count < expected {
+                    "write all of them, also those without words"
+                } else {
+                    "write a bar within a cell as \\|"
+                };
+                let problem = format!("a row has {has} in a table of {expected} columns; {remedy}");
                 return Err(fault(problem).with_place(self.filled.place(range.start)));
             }
             let mut cells = Vec::new();

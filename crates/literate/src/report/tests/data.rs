@@ -8,7 +8,7 @@ use std::process::{Command, Stdio};
 const PIECES: &str = r##"a b Z é σ 0.5 7 · ␣ ␣ ␣ ␣␣ ␣␣␣␣ * ** _ __ ` `` ``` $ $$ | | \ \| \\ - -- --- -␣ +␣ 1.␣ 12) # ##
     #␣ > = === [ ] ( ) [␣] [x] ](x) [a]:␣b ! ![ [!NOTE] [^1] < <b> </b> <!-- & &amp; &#35; ~ ~~ ~~~ @a @ {
     } {#a} ^ % ␣% " ' '' ,, : :- :-: :: ; / « » − – → https://x.org/a_b*c www.x.org ^a$|^b$ $HOME/$USER US$
-    C:\new{x} null ⏎ a␣b a␣b a␣b"##;
+    :x: 1:100:1000 C:\new{x} null ⏎ a␣b a␣b a␣b"##;
 
 /// Blocks around words `W`, and what readers see of each.
 const BLOCKS: &str = r"
