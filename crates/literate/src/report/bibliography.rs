@@ -3,7 +3,9 @@
 use super::bibtex;
 use super::document::{Inline, Reference, to_plain_text, words_and_maths};
 use super::error::Error;
+use super::latex;
 use super::people::{citation_names, list_authors, list_editors, parse_people};
+use super::tex;
 use crate::input::Place;
 use biblatex::{ChunksExt, Entry, EntryType, ParseErrorKind};
 use std::cell::RefCell;
@@ -11,45 +13,74 @@ use std::collections::BTreeSet;
 use unicode_normalization::{UnicodeNormalization, char::is_combining_mark};
 
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Library(Vec<Reference>);
+pub struct Library {
+    references: Vec<Reference>,
+    faults: Vec<Fault>,
+}
+
+/// What is wrong with an entry, which nobody may cite.
+#[derive(Clone, Debug, PartialEq)]
+struct Fault {
+    key: String,
+    place: Place,
+    problem: String,
+    /// Whether it may be incomplete if nobody cites it: others inherit from it.
+    is_parent: bool,
+}
 
 impl Library {
-    /// Reads BibTeX. All entries that cannot be shown are reported at once.
-    pub fn read(bibtex: &str) -> Result<Self, Error> {
-        let fault = |problem: String| Error::Template(format!("references.bib:{problem}"));
-        let entries = bibtex::parse_entries(bibtex).map_err(|error| {
-            let place = Place::in_text("references.bib".into(), bibtex, error.span.start);
+    /// Reads the BibTeX of a file. Fails if it is not BibTeX; an entry that cannot be shown is
+    /// kept with its fault.
+    pub fn read(path: &str, bibtex: &str) -> Result<Self, Error> {
+        let place = |offset: usize| Place::in_text(path.into(), bibtex, offset);
+        let (entries, starts) = bibtex::parse_entries(bibtex).map_err(|error| {
             let remedy = match error.kind {
                 ParseErrorKind::UnknownAbbreviation(_) => "give it above",
                 ParseErrorKind::DuplicateKey(_) => "rename or remove one",
                 _ => "is a brace or a comma missing before?",
             };
-            Error::Template(format!("{place}: {}; {remedy}", error.kind))
+            let problem = format!("{}; {remedy}", error.kind);
+            Error::Template(problem).with_place(place(error.span.start))
         })?;
-        let (mut references, mut errors) = (Vec::new(), Vec::new());
+        let (mut references, mut faults) = (Vec::new(), Vec::new());
         let parents = bibtex::parents(&entries);
         for entry in entries.iter() {
             let completed = bibtex::completed(entry, &entries, &[]);
-            let is_parent = completed.is_ok() && parents.contains(&entry.key);
+            let is_parent = completed.is_ok() && parents.contains(&entry.key)
+                || entry.entry_type == EntryType::XData;
             match completed.and_then(|completed| reference(&completed, entry)) {
                 Ok(reference) => references.push(reference),
-                Err(_) if is_parent || entry.entry_type == EntryType::XData => (),
-                Err(problem) => errors.push(fault(format!(" {} {problem}", entry.key))),
+                Err(problem) => {
+                    let (key, place) = (entry.key.clone(), place(starts[&entry.key]));
+                    faults.push(Fault { key, place, problem, is_parent });
+                }
             }
         }
-        Error::check(errors)?;
         references
             .sort_by_cached_key(|reference| sort_key(&to_plain_text(&reference.to_inlines())));
-        Ok(Library(references))
+        Ok(Library { references, faults })
+    }
+
+    /// Returns what is wrong with the entry that has a key, or `None` if it is right or not there.
+    pub fn fault(&self, key: &str) -> Option<Error> {
+        let fault = self.faults.iter().find(|fault| fault.key == key)?;
+        Some(Error::Template(format!("{key} {}", fault.problem)).with_place(fault.place.clone()))
+    }
+
+    /// Warns of entries that are wrong and that nobody cites.
+    pub fn warn(&self, warn: &dyn Fn(&str)) {
+        for Fault { key, place, problem, .. } in self.faults.iter().filter(|one| !one.is_parent) {
+            warn(&format!("{place}: {key}, which nobody cites, {problem}"));
+        }
     }
 
     pub fn keys(&self) -> impl Iterator<Item = &str> {
-        self.0.iter().map(|reference| reference.key.as_str())
+        self.references.iter().map(|reference| reference.key.as_str())
     }
 
     /// Returns the list of these entries; like labels get letters after the year: 1954a.
     pub fn list(&self, keys: &BTreeSet<String>) -> Vec<Reference> {
-        let cited = self.0.iter().filter(|reference| keys.contains(&reference.key));
+        let cited = self.references.iter().filter(|reference| keys.contains(&reference.key));
         let mut list: Vec<Reference> = cited.cloned().collect();
         let labels: Vec<_> = list.iter().map(|one| (one.names.clone(), one.year.clone())).collect();
         for (index, reference) in list.iter_mut().enumerate() {
@@ -163,13 +194,20 @@ fn reference(entry: &Entry, own: &Entry) -> Result<Reference, String> {
     }
     bibtex::refuse_left_out(own, &read_fields.borrow())?;
     let [year, date] = [field("year")?, field("date")?].map(|inlines| to_plain_text(&inlines));
-    Ok(Reference {
+    let reference = Reference {
         key: entry.key.clone(),
         names: citation_names(people),
         year: bibtex::parse_year(&year, &date)?,
         authors: if authors.is_empty() { list_as_editors(people) } else { list_authors(people) },
         rest,
-    })
+    };
+    match tex::unknown(&latex::inlines(&reference.to_inlines())).first() {
+        Some(c) => {
+            let code = u32::from(*c);
+            Err(format!("has the character {c:?} (U+{code:04X}), which is not known in LaTeX"))
+        }
+        None => Ok(reference),
+    }
 }
 
 /// Joins neighbouring words, so that a title with a subtitle is emphasised as a whole.
@@ -300,7 +338,11 @@ mod tests {
 
     /// The list of all entries in Markdown, each after what a citation shows; or the fault.
     fn list(text: &str) -> Result<Vec<String>, String> {
-        let library = Library::read(text).map_err(|error| error.to_string())?;
+        let library = Library::read("references.bib", text).map_err(|error| error.to_string())?;
+        let fault = library.faults.iter().find(|fault| !fault.is_parent);
+        if let Some(fault) = fault.and_then(|fault| library.fault(&fault.key)) {
+            return Err(fault.to_string());
+        }
         let keys = library.keys().map(String::from).collect();
         let markdown_of = |entry: &Reference| markdown::inlines(&entry.to_inlines());
         let entry = |one: &Reference| format!("{}, {}: {}", one.names, one.year, markdown_of(one));
@@ -331,7 +373,7 @@ mod tests {
         let entry = |i| format!("@book{{k{i}, author={{A}}, title={{{i:02}}}, year={{1}}}}\n");
         let mut bibtex: String = (0..60).map(entry).collect();
         bibtex += "@book{own, author={A}, title={T}, year={1ab}}";
-        let library = Library::read(&bibtex).unwrap();
+        let library = Library::read("references.bib", &bibtex).unwrap();
         let list = library.list(&library.keys().map(String::from).collect());
         let years: Vec<&str> = list.iter().map(|one| one.year.as_str()).collect();
         assert_eq!(years[24..28], ["1y", "1z", "1aa", "1ac"], "1ab is taken");

@@ -134,19 +134,18 @@ impl Filler {
 
     /// Returns a filter that a tag puts on a value and that is made for plain numbers and words, or
     /// `None` if there is none.
-    fn foreign_filter<'a>(&self, tag: &'a str) -> Option<&'a str> {
+    fn foreign_filter(&self, tag: &str) -> Option<String> {
         let tag = tag.split('»').next()?.trim_start_matches(['-', ' ']);
         let mut here = &self.names;
         for (key, _) in steps(tag) {
             here = key.map_or(here.as_object()?.values().next(), |key| here.get(key))?;
         }
         let is_value = here.as_str()?.starts_with(mark::OPEN);
-        let filters = tag.split('"').step_by(2).flat_map(|part| {
-            part.match_indices('|').map(move |(bar, _)| part[bar + 1..].trim_start())
-        });
-        let names = filters
-            .map(|rest| rest.split(|c: char| !c.is_alphanumeric()).next().unwrap_or_default());
-        names.filter(|_| is_value).find(|name| !FILTERS.contains(name))
+        // Words in quotation marks may have bars.
+        let bare: String = tag.split('"').step_by(2).collect();
+        let name = |rest: &str| rest.trim().split(['(', ' ']).next().map(String::from);
+        let mut names = bare.split('|').skip(1).filter_map(name);
+        names.find(|name| is_value && !FILTERS.contains(&name.as_str()))
     }
 
     fn fault(&self, path: &str, offset: usize, problem: &str) -> Error {
@@ -362,8 +361,8 @@ fn register(tera: &mut Tera, empty: BTreeSet<String>) {
     });
     tera.register_filter("otherwise", move |mark: &str, arguments: Kwargs, _: &State| {
         let words: String = arguments.must_get("words")?;
-        let is_empty = |id| empty.contains(&id);
-        Ok::<_, tera::Error>(if mark::ids(mark).any(is_empty) { words } else { mark.into() })
+        let is_empty = |(id, ..): (String, _, _)| empty.contains(&id);
+        Ok::<_, tera::Error>(if mark::values(mark).any(is_empty) { words } else { mark.into() })
     });
     tera.register_function("literal", |arguments: Kwargs, _: &State| {
         let literal: String = arguments.must_get("text")?;

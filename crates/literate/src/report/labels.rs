@@ -188,6 +188,7 @@ impl Labels {
                 cited.extend(ids.iter().filter(|id| is_key(id)).cloned());
             }
         });
+        errors.extend(cited.iter().filter_map(|key| library.fault(key)));
         let list = library.list(&cited);
         rewrite(blocks, &mut |inline| {
             let Inline::Unresolved { ids, in_sentence } = inline else { return vec![inline] };
@@ -292,11 +293,8 @@ fn cite(
         let entry = list.iter().find(|entry| entry.key == *key);
         let Reference { names, year, .. } = entry.ok_or_else(|| {
             let problem = "nothing in the report and no entry of references.bib has this id";
-            Error::unknown(
-                Thing::Reference(key.clone()),
-                format!("[@{key}]: {problem}"),
-                library.keys(),
-            )
+            let (thing, problem) = (Thing::Reference(key.clone()), format!("[@{key}]: {problem}"));
+            library.fault(key).unwrap_or_else(|| Error::unknown(thing, problem, library.keys()))
         })?;
         let (to, within) = (format!("ref:{key}"), None);
         if in_sentence {

@@ -22,7 +22,13 @@ pub fn write(blocks: &[Block], document: Document, edition: &Edition) -> Result<
         "body": body(blocks),
         "listings": listings(blocks),
     });
-    Error::check(tex::unknown(&print.to_string()).into_iter().map(Error::NoLatex).collect())?;
+    let unknown =
+        |field: &str| tex::unknown(&print[field].to_string()).into_iter().map(Error::NoLatex);
+    let apart = [("authors", "the authors of the paper"), ("listings", "the code of a listing")];
+    let apart = apart.into_iter().flat_map(|(field, place)| {
+        unknown(field).map(move |error| error.with_place(place.to_string()))
+    });
+    Error::check(unknown("title").chain(unknown("body")).chain(apart).collect())?;
     Ok(print)
 }
 
@@ -258,19 +264,59 @@ impl Column {
     }
 }
 
-fn table(table: &Table) -> String {
+/// How a table lies on the page.
+#[derive(Clone, Copy)]
+struct Layout {
+    /// Whether it is turned on its side.
+    across: bool,
+    /// The share of the usual gaps that its columns have between them.
+    gap: f64,
+    small: bool,
+}
+
+/// The layouts that are tried, one after the other.
+const LAYOUTS: [Layout; 5] = [
+    Layout { across: false, gap: 1.0, small: false },
+    Layout { across: false, gap: 0.5, small: false },
+    Layout { across: true, gap: 1.0, small: false },
+    Layout { across: true, gap: 0.5, small: false },
+    Layout { across: true, gap: 0.5, small: true },
+];
+
+impl Layout {
+    /// Returns how many characters fit into a line.
+    fn line(self) -> f64 {
+        let larger = if self.small { 1.4 } else { 1.0 };
+        LINE as f64 * larger * if self.across { 1.5 } else { 1.0 }
+    }
+}
+
+/// Returns the columns of a table, and its layout, or `None` if it is too wide for a page.
+fn layout(table: &Table) -> (Vec<Column>, Option<Layout>) {
     let columns = table.columns.iter().enumerate();
     let columns: Vec<Column> = columns.map(|(i, align)| Column::new(table, i, *align)).collect();
     let total: usize = columns.iter().map(|column| column.width + 2).sum();
     let least: usize = columns.iter().map(|column| column.least).sum();
     let gaps = GAPS * columns.len() as f64;
-    let fits = |gaps: f64| total <= ACROSS && least as f64 + gaps <= LINE as f64;
-    // Gaps are halved before a table is turned on its side.
-    let (tight, across) = (!fits(gaps) && fits(0.5 * gaps), !fits(0.5 * gaps));
-    let line = if across { LINE * 3 / 2 } else { LINE };
-    let wraps = total > line;
-    let layout = if wraps {
-        shared_layout(&columns, line as f64, (line as f64 - gaps - least as f64).max(0.0))
+    let fits = |layout: &Layout| {
+        (layout.across || total <= ACROSS) && least as f64 + gaps * layout.gap <= layout.line()
+    };
+    let layout = LAYOUTS.into_iter().find(fits);
+    (columns, layout)
+}
+
+/// Returns whether a table fits on a page.
+pub fn fits(table: &Table) -> bool {
+    layout(table).1.is_some()
+}
+
+fn table(table: &Table) -> String {
+    let (columns, layout) = layout(table);
+    let layout = layout.unwrap_or(LAYOUTS[4]);
+    let total: usize = columns.iter().map(|column| column.width + 2).sum();
+    let wraps = total as f64 > layout.line();
+    let letters = if wraps {
+        shared_layout(&columns, layout.line())
     } else {
         columns.iter().map(|column| column.letter).collect()
     };
@@ -278,9 +324,10 @@ fn table(table: &Table) -> String {
         let cells: Vec<String> = cells.iter().map(|cell| inlines(cell)).collect();
         format!("{} \\\\\n", separated(&cells.join(" & ").replace('\n', " ")))
     };
-    let mut latex = String::from(if across { "\\begin{landscape}\n" } else { "" });
-    let gap = if tight { "\\setlength{\\tabcolsep}{3pt}\n" } else { "" };
-    latex.push_str(&format!("{{\\footnotesize\n{gap}\\begin{{longtable}}{{{layout}}}\n"));
+    let mut latex = String::from(if layout.across { "\\begin{landscape}\n" } else { "" });
+    let size = if layout.small { "tiny" } else { "footnotesize" };
+    let gap = if layout.gap < 1.0 { "\\setlength{\\tabcolsep}{3pt}\n" } else { "" };
+    latex.push_str(&format!("{{\\{size}\n{gap}\\begin{{longtable}}{{{letters}}}\n"));
     if table.number.is_some() {
         let label = table.id.as_ref().map(|id| format!("\\label{{{id}}}")).unwrap_or_default();
         latex.push_str(&format!("\\caption{{{}}}{label}\\\\\n", inlines(&table.caption)));
@@ -294,12 +341,14 @@ fn table(table: &Table) -> String {
         latex.push_str(if wraps { "\\addlinespace[2pt]\n" } else { "" });
     }
     latex.push_str("\\end{longtable}}");
-    latex + if across { "\n\\end{landscape}" } else { "" }
+    latex + if layout.across { "\n\\end{landscape}" } else { "" }
 }
 
 /// Lays out columns that do not all fit: short ones keep their width, and the long ones share what
 /// is free beyond their longest words, by the square roots of their widths.
-fn shared_layout(columns: &[Column], line: f64, free: f64) -> String {
+fn shared_layout(columns: &[Column], line: f64) -> String {
+    let least: usize = columns.iter().map(|column| column.least).sum();
+    let free = (line - GAPS * columns.len() as f64 - least as f64).max(0.0);
     let long = columns.iter().filter(|column| column.width > SHORT);
     let weights: f64 = long.map(|column| (column.width as f64).sqrt()).sum();
     let column = |Column { letter, width, least }: &Column| {

@@ -100,17 +100,10 @@ impl Reader<'_> {
     /// Notes what beside a value changes its unit or sign, and digits that drop its error.
     fn check_values(&mut self, range: &Range<usize>, is_maths: bool) {
         let (filled, values) = (self.filled, self.values);
-        let (source, mut offset) = (&filled.text, range.start);
-        for piece in pieces(&source[range.clone()]) {
-            let (id, filters) = match piece {
-                Piece::Text(text) => {
-                    offset += text.len();
-                    continue;
-                }
-                Piece::Value { id, filters } => (id, filters),
-            };
-            let (end, style) =
-                (offset + mark::framed(&id, filters).len(), mark::parse_filters(filters));
+        let source = &filled.text;
+        for (id, filters, at) in mark::values(&source[range.clone()]) {
+            let (offset, end) = (range.start + at.start, range.start + at.end);
+            let style = mark::parse_filters(filters);
             if let Some(value) = values.get(&id) {
                 let has_error =
                     |digits: &Digits| matches!(digits, Digits::Error(_)) && style.digits.is_some();
@@ -124,7 +117,6 @@ impl Reader<'_> {
                     self.note_error(offset, Error::Template(problem));
                 }
             }
-            offset = end;
         }
     }
 

@@ -11,6 +11,7 @@ use super::document::{Block, Inline, Table, to_plain_text};
 use super::error::{Error, Thing};
 use super::filled::{Filled, Places};
 use super::labels::check_kind;
+use super::latex;
 use super::lint::Declared;
 use super::values::Registry;
 use crate::input;
@@ -53,7 +54,11 @@ pub fn parse<'a>(
     if let Some((_, range)) = deep {
         let error =
             fault("lists or emphasis are nested too deeply").with_place(filled.place(range.start));
-        return Parsed { blocks: Vec::new(), places: Places::new(filled), errors: vec![error] };
+        return Parsed {
+            blocks: Vec::new(),
+            places: Places::new(filled, values),
+            errors: vec![error],
+        };
     }
     let mut reader = Reader {
         events: events.into_iter().peekable(),
@@ -67,10 +72,14 @@ pub fn parse<'a>(
         depth_without_formulas: 0,
         has_title: false,
         is_in_cell: false,
-        places: Places::new(filled),
+        places: Places::new(filled, values),
         errors: Vec::new(),
     };
     let blocks = reader.blocks().unwrap_or_default();
+    let is_hidden = |(_, c): &(usize, char)| c.is_control() && !['\n', '\t'].contains(c);
+    if let Some((offset, c)) = filled.text.char_indices().find(is_hidden) {
+        reader.note_error(offset, Error::NoLatex(c));
+    }
     Parsed { blocks, places: reader.places, errors: reader.errors }
 }
 
@@ -352,7 +361,12 @@ impl<'a> Reader<'a> {
             rows.push(cells);
         }
         let head = if rows.is_empty() { Vec::new() } else { rows.remove(0) };
-        Ok(Block::Table(Table { columns, head, rows, ..Table::default() }))
+        let table = Table { columns, head, rows, ..Table::default() };
+        if !latex::fits(&table) {
+            let problem = "columns do not fit on a page of LaTeX, on its side and in small letters";
+            return Err(fault(format!("its {} {problem}; leave some out", table.columns.len())));
+        }
+        Ok(Block::Table(table))
     }
 }
 

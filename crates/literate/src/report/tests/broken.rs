@@ -8,7 +8,13 @@ const BROKEN: &str = include_str!("broken.txt");
 #[test]
 fn faults_in_prose_are_reported_with_their_places() {
     let mut wrong = Vec::new();
-    let deep = [("DEEP{", r"\sqrt{"), ("DEEP}", "}"), ("HATS", r"\hat "), ("QUOTES", "> ")];
+    let deep = [
+        ("DEEP{", r"\sqrt{"),
+        ("DEEP}", "}"),
+        ("HATS", r"\hat "),
+        ("QUOTES", "> "),
+        ("BELLS", "\u{7}"),
+    ];
     let deep = deep.into_iter().chain([("IN1IN", "("), ("ELIFS", "<% elif false %>a")]);
     let deep = |line: &str| {
         deep.clone()

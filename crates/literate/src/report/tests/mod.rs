@@ -15,7 +15,8 @@ use crate::table::{DataFile, Table, Tables};
 use impact_numerics::estimates::with_error;
 use std::sync::Arc;
 
-const BIB: &str = "@article{rice1945, author={Rice, S. O.}, title={Noise}, journal={B}, year=1945}";
+const BIB: &str = "@article{rice1945, author={Rice, S. O.}, title={Noise}, journal={B}, year=1945}
+    @book{timeless, author={A}, title={T}} @book{han, author={漢}, title={T}, year=1}";
 
 const SAMPLE: &str = include_str!("sample.md");
 
@@ -100,6 +101,7 @@ impl Given {
             edition: &self.edition,
             project: &Project::new(toy()),
             experiments: &[],
+            warn: &|_| (),
         })
     }
 }
@@ -194,6 +196,44 @@ fn numerals_that_were_typed_outside_the_prose_are_refused() {
             "{error}"
         );
     }
+}
+
+#[test]
+fn a_table_is_turned_and_made_small_until_it_fits_or_refused() {
+    let made = |columns| {
+        let row = |cell: &str| format!("|{}", cell.repeat(columns));
+        assembled(&format!("{PROSE}\n\n{}\n{}\n{}", row(" h |"), row("--|"), row(" elevenwords |")))
+    };
+    let [turned, tight] = ["\\begin{landscape}\n", "\\setlength{\\tabcolsep}{3pt}\n"];
+    for (columns, before, size, gap) in [
+        (5, "", "footnotesize", ""),
+        (7, "", "footnotesize", tight),
+        (10, turned, "footnotesize", ""),
+        (11, turned, "footnotesize", tight),
+        (14, turned, "tiny", tight),
+    ] {
+        let begin = format!("{before}{{\\{size}\n{gap}\\begin{{longtable}}{{");
+        let tex = file(&made(columns).unwrap(), "report.tex");
+        assert!(tex.contains(&format!("\n{begin}{}}}", "l".repeat(columns))), "{columns}: {tex}");
+    }
+    let error = made(16).unwrap_err().to_string();
+    assert!(error.starts_with("report.md:14:1: its 16 columns do not fit on a page"), "{error}");
+}
+
+#[test]
+fn a_wrong_entry_stops_only_those_who_cite_it() {
+    let faults = ["timeless lacks its year or date", "han has the character '漢' (U+6F22)"];
+    let error = assembled(&format!("{PROSE}\n\nBy [@timeless; @han].")).unwrap_err().to_string();
+    let lines: Vec<&str> = error.lines().collect();
+    assert_eq!(lines.len(), 2, "{error}");
+    assert!(lines[0].starts_with(&format!("references.bib:2:5: {}", faults[0])), "{error}");
+    assert!(lines[1].starts_with(&format!("references.bib:2:44: {}", faults[1])), "{error}");
+    let warnings = std::sync::Mutex::new(Vec::new());
+    let warn = |line: &str| warnings.lock().unwrap().push(line.to_string());
+    bibliography::Library::read("references.bib", BIB).unwrap().warn(&warn);
+    let warned = warnings.into_inner().unwrap().join("\n");
+    assert!(warned.starts_with("references.bib:2:5: timeless, which nobody cites, lacks"));
+    assert_eq!(warned.lines().count(), 2, "{warned}");
 }
 
 #[test]
