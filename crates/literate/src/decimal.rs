@@ -44,11 +44,9 @@ impl Decimal {
 
     /// Returns the same number without zeros at the end of its digits; zero has no decimals.
     pub fn trimmed(mut self) -> Decimal {
-        if self.digits.is_empty() {
-            return Decimal { places: 0, ..self };
-        }
         let length = self.digits.trim_end_matches('0').len();
-        self.places -= (self.digits.len() - length) as i32;
+        self.places =
+            if length == 0 { 0 } else { self.places - (self.digits.len() - length) as i32 };
         self.digits.truncate(length);
         self
     }

@@ -127,8 +127,7 @@ impl PrintedTable {
     fn fault_in(&self, row: &[Cell]) -> Option<String> {
         let all = self.names().count();
         if row.len() != all {
-            let cells = count(row.len(), "cell");
-            return Some(format!("has {cells} for {}; null is none", count(all, "name")));
+            return Some(format!("has {} of {all}; null is none", count(row.len(), "cell")));
         }
         for (at, (name, Cell { json: cell, .. })) in self.names().zip(row).enumerate() {
             if cell.is_array() || cell.is_object() {

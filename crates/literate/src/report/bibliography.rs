@@ -9,23 +9,14 @@ use super::tex;
 use crate::input::Place;
 use biblatex::{ChunksExt, Entry, EntryType, ParseErrorKind};
 use std::cell::RefCell;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use unicode_normalization::{UnicodeNormalization, char::is_combining_mark};
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Library {
     references: Vec<Reference>,
-    faults: Vec<Fault>,
-}
-
-/// What is wrong with an entry, which nobody may cite.
-#[derive(Clone, Debug, PartialEq)]
-struct Fault {
-    key: String,
-    place: Place,
-    problem: String,
-    /// Whether it may be incomplete if nobody cites it: others inherit from it.
-    is_parent: bool,
+    /// What is wrong with entries that nobody may cite, by their keys, and where they stand.
+    faults: BTreeMap<String, (Place, String)>,
 }
 
 impl Library {
@@ -42,17 +33,16 @@ impl Library {
             let problem = format!("{}; {remedy}", error.kind);
             Error::Template(problem).with_place(place(error.span.start))
         })?;
-        let (mut references, mut faults) = (Vec::new(), Vec::new());
+        let (mut references, mut faults) = (Vec::new(), BTreeMap::new());
         let parents = bibtex::parents(&entries);
         for entry in entries.iter() {
             let completed = bibtex::completed(entry, &entries, &[]);
-            let is_parent = completed.is_ok() && parents.contains(&entry.key)
-                || entry.entry_type == EntryType::XData;
+            let is_parent = completed.is_ok() && parents.contains(&entry.key);
             match completed.and_then(|completed| reference(&completed, entry)) {
                 Ok(reference) => references.push(reference),
+                Err(_) if is_parent || entry.entry_type == EntryType::XData => (),
                 Err(problem) => {
-                    let (key, place) = (entry.key.clone(), place(starts[&entry.key]));
-                    faults.push(Fault { key, place, problem, is_parent });
+                    faults.insert(entry.key.clone(), (place(starts[&entry.key]), problem));
                 }
             }
         }
@@ -61,15 +51,15 @@ impl Library {
         Ok(Library { references, faults })
     }
 
-    /// Returns what is wrong with the entry that has a key, or `None` if it is right or not there.
+    /// Returns what is wrong with the entry that has a key, or `None` if there is no such fault.
     pub fn fault(&self, key: &str) -> Option<Error> {
-        let fault = self.faults.iter().find(|fault| fault.key == key)?;
-        Some(Error::Template(format!("{key} {}", fault.problem)).with_place(fault.place.clone()))
+        let (place, problem) = self.faults.get(key)?;
+        Some(Error::Template(format!("{key} {problem}")).with_place(place.clone()))
     }
 
-    /// Warns of entries that are wrong and that nobody cites.
+    /// Warns of all that is wrong, where nobody cites it.
     pub fn warn(&self, warn: &dyn Fn(&str)) {
-        for Fault { key, place, problem, .. } in self.faults.iter().filter(|one| !one.is_parent) {
+        for (key, (place, problem)) in &self.faults {
             warn(&format!("{place}: {key}, which nobody cites, {problem}"));
         }
     }
@@ -201,13 +191,9 @@ fn reference(entry: &Entry, own: &Entry) -> Result<Reference, String> {
         authors: if authors.is_empty() { list_as_editors(people) } else { list_authors(people) },
         rest,
     };
-    match tex::unknown(&latex::inlines(&reference.to_inlines())).first() {
-        Some(c) => {
-            let code = u32::from(*c);
-            Err(format!("has the character {c:?} (U+{code:04X}), which is not known in LaTeX"))
-        }
-        None => Ok(reference),
-    }
+    let unknown = tex::unknown(&latex::inlines(&reference.to_inlines())).pop_first();
+    let problem = "is not known in LaTeX; write it in Latin letters";
+    unknown.map_or(Ok(reference), |c| Err(format!("has the character {c:?}, which {problem}")))
 }
 
 /// Joins neighbouring words, so that a title with a subtitle is emphasised as a whole.
@@ -339,9 +325,8 @@ mod tests {
     /// The list of all entries in Markdown, each after what a citation shows; or the fault.
     fn list(text: &str) -> Result<Vec<String>, String> {
         let library = Library::read("references.bib", text).map_err(|error| error.to_string())?;
-        let fault = library.faults.iter().find(|fault| !fault.is_parent);
-        if let Some(fault) = fault.and_then(|fault| library.fault(&fault.key)) {
-            return Err(fault.to_string());
+        if let Some(key) = library.faults.keys().next() {
+            return Err(library.fault(key).unwrap().to_string());
         }
         let keys = library.keys().map(String::from).collect();
         let markdown_of = |entry: &Reference| markdown::inlines(&entry.to_inlines());

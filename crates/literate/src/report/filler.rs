@@ -132,20 +132,19 @@ impl Filler {
         Ok(())
     }
 
-    /// Returns a filter that a tag puts on a value and that is made for plain numbers and words, or
-    /// `None` if there is none.
+    /// Returns a filter that a tag puts on a value and that takes plain numbers or words, or `None`
+    /// if there is none.
     fn foreign_filter(&self, tag: &str) -> Option<String> {
         let tag = tag.split('»').next()?.trim_start_matches(['-', ' ']);
-        let mut here = &self.names;
-        for (key, _) in steps(tag) {
-            here = key.map_or(here.as_object()?.values().next(), |key| here.get(key))?;
-        }
-        let is_value = here.as_str()?.starts_with(mark::OPEN);
+        let value = steps(tag).into_iter().try_fold(&self.names, |here, (key, _)| {
+            key.map_or_else(|| here.as_object()?.values().next(), |key| here.get(key))
+        });
+        value?.as_str().filter(|mark| mark.starts_with(mark::OPEN))?;
         // Words in quotation marks may have bars.
         let bare: String = tag.split('"').step_by(2).collect();
         let name = |rest: &str| rest.trim().split(['(', ' ']).next().map(String::from);
         let mut names = bare.split('|').skip(1).filter_map(name);
-        names.find(|name| is_value && !FILTERS.contains(&name.as_str()))
+        names.find(|name| !["percent", "significant", "otherwise"].contains(&name.as_str()))
     }
 
     fn fault(&self, path: &str, offset: usize, problem: &str) -> Error {
@@ -283,9 +282,6 @@ fn steps(expression: &str) -> Vec<(Option<&str>, usize)> {
         }
     }
 }
-
-/// The filters for values.
-const FILTERS: [&str; 3] = ["percent", "significant", "otherwise"];
 
 const NOT_TRUE: &str = "the words before are no longer true";
 

@@ -105,7 +105,9 @@ fn write_block(block: &Block) -> String {
             let kind = if start.is_some() { "enumerate" } else { "itemize" };
             let mut latex = format!("\\begin{{{kind}}}\n");
             if let Some(start) = start.filter(|start| *start != 1) {
-                latex.push_str(&format!("\\setcounter{{enumi}}{{{}}}\n", start.saturating_sub(1)));
+                let before = start.saturating_sub(1);
+                let counter = r"\csname @enumctr\endcsname";
+                latex.push_str(&format!("\\setcounter{{{counter}}}{{{before}}}\n"));
             }
             for item in items {
                 latex.push_str(&format!("\\item {}\n", separated(body(item).trim_end())));
@@ -229,7 +231,9 @@ fn address(to: &str) -> String {
     document::address(to).replace('%', r"\%").replace('#', r"\#").replace('&', r"\&")
 }
 
-/// Characters that fit into a line of the page in the size of tables.
+/// Characters that fit into a line of the page in the size of tables, into one of the page on its
+/// side, and there in small letters.
+const LINES: [usize; 3] = [LINE, LINE * 3 / 2, LINE * 2];
 const LINE: usize = 92;
 
 /// A table whose longest cells have more characters than this together is turned on its side.
@@ -264,59 +268,37 @@ impl Column {
     }
 }
 
-/// How a table lies on the page.
-#[derive(Clone, Copy)]
-struct Layout {
-    /// Whether it is turned on its side.
-    across: bool,
-    /// The share of the usual gaps that its columns have between them.
-    gap: f64,
-    small: bool,
-}
-
-/// The layouts that are tried, one after the other.
-const LAYOUTS: [Layout; 5] = [
-    Layout { across: false, gap: 1.0, small: false },
-    Layout { across: false, gap: 0.5, small: false },
-    Layout { across: true, gap: 1.0, small: false },
-    Layout { across: true, gap: 0.5, small: false },
-    Layout { across: true, gap: 0.5, small: true },
-];
-
-impl Layout {
-    /// Returns how many characters fit into a line.
-    fn line(self) -> f64 {
-        let larger = if self.small { 1.4 } else { 1.0 };
-        LINE as f64 * larger * if self.across { 1.5 } else { 1.0 }
-    }
-}
-
-/// Returns the columns of a table, and its layout, or `None` if it is too wide for a page.
-fn layout(table: &Table) -> (Vec<Column>, Option<Layout>) {
+fn columns(table: &Table) -> Vec<Column> {
     let columns = table.columns.iter().enumerate();
-    let columns: Vec<Column> = columns.map(|(i, align)| Column::new(table, i, *align)).collect();
-    let total: usize = columns.iter().map(|column| column.width + 2).sum();
-    let least: usize = columns.iter().map(|column| column.least).sum();
-    let gaps = GAPS * columns.len() as f64;
-    let fits = |layout: &Layout| {
-        (layout.across || total <= ACROSS) && least as f64 + gaps * layout.gap <= layout.line()
-    };
-    let layout = LAYOUTS.into_iter().find(fits);
-    (columns, layout)
+    columns.map(|(i, align)| Column::new(table, i, *align)).collect()
 }
 
-/// Returns whether a table fits on a page.
+/// Returns which of [`LINES`] holds a table, with gaps that may be halved, or `None` if it fits on
+/// no page.
+fn line_of(columns: &[Column]) -> Option<usize> {
+    let total: usize = columns.iter().map(|column| column.width + 2).sum();
+    let first = usize::from(total > ACROSS);
+    (first..LINES.len()).find(|line| least(columns, 0.5) <= LINES[*line] as f64)
+}
+
+/// Returns how narrow columns can be together, with a share of the usual gaps.
+fn least(columns: &[Column], gap: f64) -> f64 {
+    let least: usize = columns.iter().map(|column| column.least).sum();
+    least as f64 + gap * GAPS * columns.len() as f64
+}
+
 pub fn fits(table: &Table) -> bool {
-    layout(table).1.is_some()
+    line_of(&columns(table)).is_some()
 }
 
 fn table(table: &Table) -> String {
-    let (columns, layout) = layout(table);
-    let layout = layout.unwrap_or(LAYOUTS[4]);
+    let columns = columns(table);
+    let place = line_of(&columns).unwrap_or_default();
+    let (across, small, line) = (place > 0, place > 1, LINES[place] as f64);
     let total: usize = columns.iter().map(|column| column.width + 2).sum();
-    let wraps = total as f64 > layout.line();
-    let letters = if wraps {
-        shared_layout(&columns, layout.line())
+    let wraps = total as f64 > line;
+    let layout = if wraps {
+        shared_layout(&columns, line)
     } else {
         columns.iter().map(|column| column.letter).collect()
     };
@@ -324,10 +306,11 @@ fn table(table: &Table) -> String {
         let cells: Vec<String> = cells.iter().map(|cell| inlines(cell)).collect();
         format!("{} \\\\\n", separated(&cells.join(" & ").replace('\n', " ")))
     };
-    let mut latex = String::from(if layout.across { "\\begin{landscape}\n" } else { "" });
-    let size = if layout.small { "tiny" } else { "footnotesize" };
-    let gap = if layout.gap < 1.0 { "\\setlength{\\tabcolsep}{3pt}\n" } else { "" };
-    latex.push_str(&format!("{{\\{size}\n{gap}\\begin{{longtable}}{{{letters}}}\n"));
+    let mut latex = String::from(if across { "\\begin{landscape}\n" } else { "" });
+    let size = if small { "tiny" } else { "footnotesize" };
+    let is_tight = least(&columns, 1.0) > line;
+    let gap = if is_tight { "\\setlength{\\tabcolsep}{3pt}\n" } else { "" };
+    latex.push_str(&format!("{{\\{size}\n{gap}\\begin{{longtable}}{{{layout}}}\n"));
     if table.number.is_some() {
         let label = table.id.as_ref().map(|id| format!("\\label{{{id}}}")).unwrap_or_default();
         latex.push_str(&format!("\\caption{{{}}}{label}\\\\\n", inlines(&table.caption)));
@@ -341,14 +324,13 @@ fn table(table: &Table) -> String {
         latex.push_str(if wraps { "\\addlinespace[2pt]\n" } else { "" });
     }
     latex.push_str("\\end{longtable}}");
-    latex + if layout.across { "\n\\end{landscape}" } else { "" }
+    latex + if across { "\n\\end{landscape}" } else { "" }
 }
 
 /// Lays out columns that do not all fit: short ones keep their width, and the long ones share what
 /// is free beyond their longest words, by the square roots of their widths.
 fn shared_layout(columns: &[Column], line: f64) -> String {
-    let least: usize = columns.iter().map(|column| column.least).sum();
-    let free = (line - GAPS * columns.len() as f64 - least as f64).max(0.0);
+    let free = (line - least(columns, 1.0)).max(0.0);
     let long = columns.iter().filter(|column| column.width > SHORT);
     let weights: f64 = long.map(|column| (column.width as f64).sqrt()).sum();
     let column = |Column { letter, width, least }: &Column| {

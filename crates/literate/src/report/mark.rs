@@ -58,18 +58,11 @@ pub fn pieces(text: &str) -> Vec<Piece<'_>> {
 
 /// Returns the ids of the values in a text, with their filters and where their marks stand.
 pub fn values(text: &str) -> impl Iterator<Item = (String, &str, Range<usize>)> {
-    let mut end = 0;
-    pieces(text).into_iter().filter_map(move |piece| {
-        let start = end;
-        match piece {
-            Piece::Text(text) => {
-                end += text.len();
-                None
-            }
-            Piece::Value { id, filters } => {
-                end += framed(&id, filters).len();
-                Some((id, filters, start..end))
-            }
+    text.match_indices(OPEN).filter_map(|(start, _)| {
+        let end = start + text[start..].find(CLOSE)? + CLOSE.len_utf8();
+        match pieces(&text[start..end]).pop()? {
+            Piece::Value { id, filters } => Some((id, filters, start..end)),
+            Piece::Text(_) => None,
         }
     })
 }

@@ -69,6 +69,7 @@ pub fn parse<'a>(
         id_at: 0..0,
         end_of_cut_formula: 0,
         depth: 0,
+        lists: 0,
         depth_without_formulas: 0,
         has_title: false,
         is_in_cell: false,
@@ -97,8 +98,9 @@ struct Reader<'a> {
     id_at: Range<usize>,
     /// Where a formula ends that Markdown has cut; only its first error is reported.
     end_of_cut_formula: usize,
-    /// Number of lists and quotations around what is being read.
+    /// Number of lists and quotations around what is being read, and of lists alone.
     depth: usize,
+    lists: usize,
     /// Emphasis and links around it, in which GitHub renders no formula.
     depth_without_formulas: usize,
     has_title: bool,
@@ -145,7 +147,7 @@ impl<'a> Reader<'a> {
                 Err(error) if within => return Err(error),
                 Err(error) => {
                     self.errors.push(error);
-                    (self.depth, self.depth_without_formulas) = (0, 0);
+                    (self.depth, self.lists, self.depth_without_formulas) = (0, 0, 0);
                     // Cells that Markdown adds to a row are empty and begin at its end.
                     let is_inside = |range: &Range<usize>| range.start < end || range.end <= end;
                     while self.events.next_if(|(_, range)| is_inside(range)).is_some() {}
@@ -155,10 +157,15 @@ impl<'a> Reader<'a> {
         Ok(blocks)
     }
 
-    fn inner(&mut self) -> Result<Vec<Block>, Error> {
-        self.depth += 1;
+    fn inner(&mut self, is_list: bool) -> Result<Vec<Block>, Error> {
+        let outer = (self.depth, self.lists);
+        (self.depth, self.lists) = (self.depth + 1, self.lists + usize::from(is_list));
+        if self.lists > 4 || self.depth > 6 {
+            let problem = "lists stand at most four deep in LaTeX, and with quotations six deep";
+            return Err(fault(problem));
+        }
         let blocks = self.blocks()?;
-        self.depth -= 1;
+        (self.depth, self.lists) = outer;
         Ok(blocks)
     }
 
@@ -199,24 +206,14 @@ impl<'a> Reader<'a> {
                 let number = (!bare).then(String::new);
                 Block::Heading { level, number, id, text }
             }
-            Tag::BlockQuote(_) => {
-                let quote = Block::Quote(self.inner()?);
-                if deepest(std::slice::from_ref(&quote), false) > 6 {
-                    return Err(fault("quotations stand at most six deep, as in LaTeX"));
-                }
-                quote
-            }
+            Tag::BlockQuote(_) => Block::Quote(self.inner(false)?),
             Tag::List(start) => {
                 let mut items = Vec::new();
                 while self.begins(|tag| *tag == Tag::Item).is_some() {
-                    items.push(self.inner()?);
+                    items.push(self.inner(true)?);
                     self.events.next();
                 }
-                let list = Block::List { start, items };
-                if deepest(std::slice::from_ref(&list), true) > 4 {
-                    return Err(fault("lists stand at most four deep, as in LaTeX"));
-                }
-                list
+                Block::List { start, items }
             }
             Tag::CodeBlock(kind) => self.code(kind, &range)?,
             Tag::Table(columns) => self.table(columns)?,
@@ -338,7 +335,6 @@ impl<'a> Reader<'a> {
         let mut rows = Vec::new();
         let is_row = |tag: &Tag<'_>| matches!(tag, Tag::TableHead | Tag::TableRow);
         while let Some(range) = self.begins(is_row) {
-            // Markdown silently cuts and fills rows.
             let (count, expected) = (cells_of(self.source(&range)), columns.len());
             if count != expected {
                 let has = input::count(count, "cell");
@@ -372,19 +368,6 @@ impl<'a> Reader<'a> {
 
 const UNSUPPORTED_MARKUP: &str = "this markup is not supported by every format";
 const FIGURE_NOT_ALONE: &str = "a figure must stand alone in its paragraph";
-/// Returns how deep lists, or else quotations, stand in one another.
-fn deepest(blocks: &[Block], of_lists: bool) -> usize {
-    let depth = |block: &Block| match block {
-        Block::List { items, .. } => {
-            let inner = items.iter().map(|item| deepest(item, of_lists)).max();
-            usize::from(of_lists) + inner.unwrap_or_default()
-        }
-        Block::Quote(blocks) => usize::from(!of_lists) + deepest(blocks, of_lists),
-        _ => 0,
-    };
-    blocks.iter().map(depth).max().unwrap_or_default()
-}
-
 const FENCE: &str = "a block of code must stand between two lines ```";
 
 fn cells_of(row: &str) -> usize {
