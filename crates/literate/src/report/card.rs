@@ -109,8 +109,10 @@ impl Cards<'_> {
         let mut ids = self.ids();
         ids.retain(|id| id.to_lowercase().contains(&lower));
         if ids.is_empty() {
+            // Reports have a minus that no keyboard has.
+            let digits = asked.replace('−', "-");
             let digits =
-                self.values.iter().filter(|value| value.to_plain_text().starts_with(&asked));
+                self.values.iter().filter(|value| value.to_plain_text().starts_with(&digits));
             ids.extend(digits.map(|value| value.id.clone()));
         }
         ids

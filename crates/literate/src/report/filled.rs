@@ -117,6 +117,9 @@ impl<'a> Places<'a> {
         };
         match offset {
             Some(offset) => error.with_place(self.filled.place(offset)),
+            None if matches!(error, Error::NoLatex(_)) => {
+                error.with_place("the authors, or the code of a listing".to_string())
+            }
             None => error,
         }
     }

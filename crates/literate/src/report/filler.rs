@@ -105,8 +105,8 @@ impl Filler {
         Ok(filled)
     }
 
-    /// Refuses names in conditions that do not exist, which Tera takes for *false*, and plain
-    /// numbers outside of conditions.
+    /// Refuses names in conditions that do not exist, which Tera takes for *false*, plain numbers
+    /// outside of conditions, and filters on values that take plain numbers or words.
     fn conditions(&self, path: &str, template: &str) -> Result<(), Error> {
         let uses = |group| template.match_indices(group).map(|(offset, _)| offset);
         for offset in uses("raw.").chain(uses("keys.")) {
@@ -122,29 +122,21 @@ impl Filler {
                 return Err(self.fault(path, offset, &problem));
             }
         }
-        for (offset, tag) in template.match_indices('«') {
-            if let Some(filter) = self.foreign_filter(&template[offset + tag.len()..]) {
-                let remedy = "write «… | significant(digits=2)», or compute it";
-                let problem = format!("`{filter}` is no filter for values; {remedy}");
-                return Err(self.fault(path, offset, &problem));
+        for (offset, _) in template.match_indices('«') {
+            let tag = template[offset..].split('»').next().unwrap_or_default();
+            let group = tag.trim_start_matches(['«', '-', ' ']).split(['.', '[']).next();
+            let is_value =
+                |name| self.names.get(name).is_some() && !["raw", "keys"].contains(&name);
+            // Words in quotation marks may have bars.
+            let bare: String = tag.split('"').step_by(2).collect();
+            let filters = bare.split('|').skip(1).filter_map(|rest| rest.trim().split('(').next());
+            let mut filters = filters.map(str::trim).filter(|_| group.is_some_and(is_value));
+            if let Some(other) = filters.find(|filter| !FILTERS.contains(filter)) {
+                let problem = "is no filter for values; write «… | significant(digits=2)»";
+                return Err(self.fault(path, offset, &format!("`{other}` {problem}")));
             }
         }
         Ok(())
-    }
-
-    /// Returns a filter that a tag puts on a value and that takes plain numbers or words, or `None`
-    /// if there is none.
-    fn foreign_filter(&self, tag: &str) -> Option<String> {
-        let tag = tag.split('»').next()?.trim_start_matches(['-', ' ']);
-        let value = steps(tag).into_iter().try_fold(&self.names, |here, (key, _)| {
-            key.map_or_else(|| here.as_object()?.values().next(), |key| here.get(key))
-        });
-        value?.as_str().filter(|mark| mark.starts_with(mark::OPEN))?;
-        // Words in quotation marks may have bars.
-        let bare: String = tag.split('"').step_by(2).collect();
-        let name = |rest: &str| rest.trim().split(['(', ' ']).next().map(String::from);
-        let mut names = bare.split('|').skip(1).filter_map(name);
-        names.find(|name| !["percent", "significant", "otherwise"].contains(&name.as_str()))
     }
 
     fn fault(&self, path: &str, offset: usize, problem: &str) -> Error {
@@ -283,6 +275,7 @@ fn steps(expression: &str) -> Vec<(Option<&str>, usize)> {
     }
 }
 
+const FILTERS: [&str; 3] = ["percent", "significant", "otherwise"];
 const NOT_TRUE: &str = "the words before are no longer true";
 
 /// Returns path and text of a file that Tera fills; prose has marks of its places.

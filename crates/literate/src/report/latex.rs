@@ -22,13 +22,7 @@ pub fn write(blocks: &[Block], document: Document, edition: &Edition) -> Result<
         "body": body(blocks),
         "listings": listings(blocks),
     });
-    let unknown =
-        |field: &str| tex::unknown(&print[field].to_string()).into_iter().map(Error::NoLatex);
-    let apart = [("authors", "the authors of the paper"), ("listings", "the code of a listing")];
-    let apart = apart.into_iter().flat_map(|(field, place)| {
-        unknown(field).map(move |error| error.with_place(place.to_string()))
-    });
-    Error::check(unknown("title").chain(unknown("body")).chain(apart).collect())?;
+    Error::check(tex::unknown(&print.to_string()).into_iter().map(Error::NoLatex).collect())?;
     Ok(print)
 }
 

@@ -338,11 +338,7 @@ impl<'a> Reader<'a> {
             let (count, expected) = (cells_of(self.source(&range)), columns.len());
             if count != expected {
                 let has = input::count(count, "cell");
-                let remedy = if count < expected {
-                    "write all of them, also those without words"
-                } else {
-                    "write a bar within a cell as \\|"
-                };
+                let remedy = "write all of them, also empty ones, and a bar within one as \\|";
                 let problem = format!("a row has {has} in a table of {expected} columns; {remedy}");
                 return Err(fault(problem).with_place(self.filled.place(range.start)));
             }

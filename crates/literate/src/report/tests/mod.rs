@@ -204,7 +204,6 @@ fn a_table_is_turned_and_made_small_until_it_fits_or_refused() {
     for (columns, expected) in [
         (5, "\n\n{\\footnotesize\n\\begin{longtable}{lllll}".into()),
         (7, format!("\n\n{{\\footnotesize\n{tight}")),
-        (10, "\\begin{landscape}\n{\\footnotesize\n\\begin{longtable}".into()),
         (11, format!("\\begin{{landscape}}\n{{\\footnotesize\n{tight}")),
         (14, format!("\\begin{{landscape}}\n{{\\tiny\n{tight}")),
         (16, "report.md:14:1: its 16 columns do not fit on a page".into()),
