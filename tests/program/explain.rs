@@ -60,7 +60,6 @@ fn things_are_found_by_part_by_number_and_as_people_write_them() {
         ("sweep.rise.half", "sweep.rise.half_height "),
         (&half[..5], "sweep.rise.half_height"),
         ("−0.", below),
-        ("-0.", below),
     ] {
         let mut command = program(folder.path(), "explain --paper r");
         let (code, card, note) = outcome(command.arg(asked));

@@ -163,7 +163,7 @@ fn parts<'a>(
         errors.extend(resolved.err().map(|error| places.locate(error)));
     }
     all_in_order(errors)?;
-    library.warn(input.warn);
+    library.warnings().for_each(|line| (input.warn)(&line));
     Ok((parts, labels))
 }
 

@@ -6,7 +6,7 @@ use super::error::Error;
 use super::latex;
 use super::people::{citation_names, list_authors, list_editors, parse_people};
 use super::tex;
-use crate::input::Place;
+use crate::input::{Place, one_line};
 use biblatex::{ChunksExt, Entry, EntryType, ParseErrorKind};
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -57,11 +57,10 @@ impl Library {
         Some(Error::Template(format!("{key} {problem}")).with_place(place.clone()))
     }
 
-    /// Warns of all that is wrong, where nobody cites it.
-    pub fn warn(&self, warn: &dyn Fn(&str)) {
-        for (key, (place, problem)) in &self.faults {
-            warn(&format!("{place}: {key}, which nobody cites, {problem}"));
-        }
+    /// Returns a line for each entry that is wrong, for reports that cite none of them.
+    pub fn warnings(&self) -> impl Iterator<Item = String> {
+        let line = |key, place, problem| format!("{place}: {key}, which nobody cites, {problem}");
+        self.faults.iter().map(move |(key, (place, it))| one_line(&line(key, place, it), 1000))
     }
 
     pub fn keys(&self) -> impl Iterator<Item = &str> {
