@@ -1,7 +1,6 @@
 //! Reads the tables that a command printed.
 
 use crate::decimal::Decimal;
-use crate::input::count;
 use crate::table::{Building, Table, no_such};
 use crate::value::{Digits, Number, Origin, Written};
 use impact_numerics::estimates::with_error;
@@ -127,7 +126,7 @@ impl PrintedTable {
     fn fault_in(&self, row: &[Cell]) -> Option<String> {
         let all = self.names().count();
         if row.len() != all {
-            return Some(format!("has {} of {all}; null is none", count(row.len(), "cell")));
+            return Some(format!("has {} of {all} cells; null is none", row.len()));
         }
         for (at, (name, Cell { json: cell, .. })) in self.names().zip(row).enumerate() {
             if cell.is_array() || cell.is_object() {

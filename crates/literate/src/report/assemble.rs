@@ -265,11 +265,8 @@ fn write_documents(
 /// Returns a figure's picture for a dark page, in the colours of the style sheet, if it has any.
 fn dark(figure: &Figure, style: &str) -> Option<(String, Vec<u8>)> {
     let (_, dark) = style.split_once("prefers-color-scheme: dark")?;
-    let colours = dark
-        .split_once('}')?
-        .0
-        .split("--")
-        .filter_map(|rule| rule.split(';').next()?.split_once(": "));
+    let (dark, _) = dark.split_once('}')?;
+    let colours = dark.split("--").filter_map(|rule| rule.split(';').next()?.split_once(": "));
     let rule =
         |(name, colour)| format!(".fill-{name}{{fill:{colour}}}.stroke-{name}{{stroke:{colour}}}");
     let rules: String = colours.map(rule).collect();

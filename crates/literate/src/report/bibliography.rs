@@ -133,6 +133,7 @@ fn reference(entry: &Entry, own: &Entry) -> Result<Reference, String> {
             vec![[emphasised(title), edition].concat(), field("publisher")?]
         }
         EntryType::InProceedings | EntryType::InCollection | EntryType::InBook => {
+            field("editor")?;
             let editors = if authors.is_empty() { "" } else { &list_editors(&editors) };
             let volume = enclosed("Vol. ", field("volume")?, "");
             let pages = field("pages")?;
@@ -174,12 +175,8 @@ fn reference(entry: &Entry, own: &Entry) -> Result<Reference, String> {
         let link = Inline::Link { to: to.clone(), words: vec![Inline::Text(to)] };
         rest.extend(enclosed(" ", vec![link], ""));
     }
-    let has_editors_in = matches!(
-        entry.entry_type,
-        EntryType::InProceedings | EntryType::InCollection | EntryType::InBook
-    );
-    if authors.is_empty() || has_editors_in {
-        read_fields.borrow_mut().insert("editor".into());
+    if authors.is_empty() {
+        field("editor")?;
     }
     bibtex::refuse_left_out(own, &read_fields.borrow())?;
     let [year, date] = [field("year")?, field("date")?].map(|inlines| to_plain_text(&inlines));

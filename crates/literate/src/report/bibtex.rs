@@ -94,10 +94,8 @@ fn parent_keys(entry: &Entry, field: &str) -> Vec<String> {
 
 /// Returns the keys of all that are parents of others; they need not be complete.
 pub fn parents(entries: &Bibliography) -> Vec<String> {
-    entries
-        .iter()
-        .flat_map(|entry| PARENTS.iter().flat_map(|field| parent_keys(entry, field)))
-        .collect()
+    let keys = |entry| PARENTS.iter().flat_map(move |field| parent_keys(entry, field));
+    entries.iter().flat_map(keys).collect()
 }
 
 /// Returns an entry with the fields that it inherits from its parents. The keys of the entries that

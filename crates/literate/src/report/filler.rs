@@ -47,16 +47,11 @@ impl Filler {
             comment_end: "#>".into(),
         };
         // Tera reads what follows each of them within it.
-        let long = |(path, text): (&str, &str)| {
-            Some((path.to_string(), text.match_indices("elif").nth(200)?.0))
-        };
-        if let Some((path, offset)) = templates.iter().find_map(long) {
-            return Err(fault(
-                templates,
-                &path,
-                offset,
-                "more than 200 `elif` in a file; write a table",
-            ));
+        for (path, text) in templates.iter() {
+            if let Some((offset, _)) = text.match_indices("elif").nth(200) {
+                let problem = "more than 200 `elif` in a file; write a table";
+                return Err(fault(templates, path, offset, problem));
+            }
         }
         let set = tera.set_delimiters(delimiters);
         tera.autoescape_on(Vec::<&str>::new());
@@ -213,10 +208,8 @@ impl Filler {
         let problem = match self.describe_missing(inside) {
             Some(missing) => missing,
             None if problem.contains(NOT_TRUE) => {
-                format!(
-                    "{problem}: {inside}, where {}; correct the sentence",
-                    self.list_numbers(inside)
-                )
+                let numbers = self.list_numbers(inside);
+                format!("{problem}: {inside}, where {numbers}; correct the sentence")
             }
             None => problem,
         };
@@ -226,11 +219,8 @@ impl Filler {
 
 fn fault(templates: &Templates, path: &str, offset: usize, problem: &str) -> Error {
     let template = templates.text(path).unwrap_or_default();
-    Error::Template(problem.into()).with_place(Place::in_text(
-        templates.place(path),
-        template,
-        offset,
-    ))
+    let place = Place::in_text(templates.place(path), template, offset);
+    Error::Template(problem.into()).with_place(place)
 }
 
 /// A template writes at most this many bytes.

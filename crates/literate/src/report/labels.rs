@@ -28,19 +28,18 @@ pub struct Labels {
 
 impl Labels {
     fn add(&mut self, id: &str, number: &str, document: Document) -> Option<Error> {
+        let fault = |problem: &str| {
+            Some(Error::Named { thing: Thing::Id(id.into()), problem: format!("{id}: {problem}") })
+        };
         let name = id.split_once(':').map_or(id, |(_, name)| name);
         let (shown, digits) = (number.trim_matches(['(', ')']), name.strip_prefix(document.letter));
-        let is_number = digits.is_some_and(|digits| digits.parse::<u32>().is_ok());
-        if is_number && name != shown && !shown.is_empty() {
-            let problem = format!("{id}: its number is {shown}; give it an id of letters");
-            return Some(Error::Named { thing: Thing::Id(id.into()), problem });
+        if digits.is_some_and(|it| it.parse::<u32>().is_ok()) && ![name, ""].contains(&shown) {
+            return fault(&format!("its number is {shown}; give it an id of letters"));
         }
         if self.labels.insert(id.to_string(), Label { number: number.into(), document }).is_none() {
             return self.take_place(id, place_on_page(id), document.page);
         }
-        let problem =
-            format!("{id}: two things in the report have this id; give one of them another");
-        Some(Error::Named { thing: Thing::Id(id.into()), problem })
+        fault("two things in the report have this id; give one of them another")
     }
 
     /// Refuses a place on a page that another id has, of which links could find one only.

@@ -180,8 +180,8 @@ fn what_goes_wrong_is_shown() {
     for (script, message) in [
         ("echo a >&2; echo b >&2; exit 3", "exit status: 3; it said:\na\nb"),
         ("echo Hello; echo '{}]'", "it printed:\nHello\n{}]"),
-        (&table("\"rows\": [[1, 2]]"), "a: row 1 has 2 cells of 1; null is none;"),
-        (&table("\"rows\": [[], [1]]"), "a: row 1 has no cell of 1; null is none;"),
+        (&table("\"rows\": [[1, 2]]"), "a: row 1 has 2 of 1 cells; null is none;"),
+        (&table("\"rows\": [[], [1]]"), "a: row 1 has 0 of 1 cells; null is none;"),
         (&table("\"rows\": [[1e400]]"), "read: 1e400 is beyond double precision (print it in"),
         (&table("\"rows\": [[[]]]"), "row 1 has more than a number"),
         (&table("\"rows\": [[1], [2]]"), "printed a: two rows have the keys []; add a key"),

@@ -135,8 +135,14 @@ impl Reader<'_> {
             return Err(fault("a link has no title, which print cannot show; write it in words"));
         }
         let hides = matches!(tag, Tag::Emphasis | Tag::Link { .. });
-        self.depth_without_formulas += usize::from(hides);
+        (self.spans, self.depth_without_formulas) =
+            (self.spans + 1, self.depth_without_formulas + usize::from(hides));
+        // Readers and writers of nested markup are recursive.
+        if self.spans > 40 {
+            return Err(fault("emphasis is nested too deeply"));
+        }
         let words = self.inlines_in_line()?;
+        self.spans -= 1;
         self.depth_without_formulas -= usize::from(hides);
         self.events.next();
         Ok(match tag {

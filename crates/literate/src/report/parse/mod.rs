@@ -14,7 +14,6 @@ use super::labels::check_kind;
 use super::latex;
 use super::lint::Declared;
 use super::values::Registry;
-use crate::input;
 use crate::source::Sources;
 use pulldown_cmark::{
     Alignment, BrokenLink, CodeBlockKind, CowStr, Event, Options, Parser, Tag, TagEnd,
@@ -44,22 +43,6 @@ pub fn parse<'a>(
     };
     let parser = Parser::new_with_broken_link_callback(&filled.text, options, Some(callback));
     let events: Vec<(Event<'_>, Range<usize>)> = parser.into_offset_iter().collect();
-    // Readers and writers of nested markup are recursive.
-    let mut depth = 0;
-    let deep = events.iter().find(|(event, _)| {
-        depth += i32::from(matches!(event, Event::Start(_)));
-        depth -= i32::from(matches!(event, Event::End(_)));
-        depth > 40
-    });
-    if let Some((_, range)) = deep {
-        let error =
-            fault("lists or emphasis are nested too deeply").with_place(filled.place(range.start));
-        return Parsed {
-            blocks: Vec::new(),
-            places: Places::new(filled, values),
-            errors: vec![error],
-        };
-    }
     let mut reader = Reader {
         events: events.into_iter().peekable(),
         filled,
@@ -70,6 +53,7 @@ pub fn parse<'a>(
         end_of_cut_formula: 0,
         depth: 0,
         lists: 0,
+        spans: 0,
         depth_without_formulas: 0,
         has_title: false,
         is_in_cell: false,
@@ -101,7 +85,9 @@ struct Reader<'a> {
     /// Number of lists and quotations around what is being read, and of lists alone.
     depth: usize,
     lists: usize,
-    /// Emphasis and links around it, in which GitHub renders no formula.
+    /// Number of emphasis and links around it.
+    spans: usize,
+    /// Those of them in which GitHub renders no formula.
     depth_without_formulas: usize,
     has_title: bool,
     /// Whether it is a cell of a table, where a dash stands for no number.
@@ -147,7 +133,8 @@ impl<'a> Reader<'a> {
                 Err(error) if within => return Err(error),
                 Err(error) => {
                     self.errors.push(error);
-                    (self.depth, self.lists, self.depth_without_formulas) = (0, 0, 0);
+                    (self.depth, self.lists, self.spans, self.depth_without_formulas) =
+                        (0, 0, 0, 0);
                     // Cells that Markdown adds to a row are empty and begin at its end.
                     let is_inside = |range: &Range<usize>| range.start < end || range.end <= end;
                     while self.events.next_if(|(_, range)| is_inside(range)).is_some() {}
@@ -337,9 +324,8 @@ impl<'a> Reader<'a> {
         while let Some(range) = self.begins(is_row) {
             let (count, expected) = (cells_of(self.source(&range)), columns.len());
             if count != expected {
-                let has = input::count(count, "cell");
                 let remedy = "write all of them, also empty ones, and a bar within one as \\|";
-                let problem = format!("a row has {has} in a table of {expected} columns; {remedy}");
+                let problem = format!("a row has {count} of {expected} cells; {remedy}");
                 return Err(fault(problem).with_place(self.filled.place(range.start)));
             }
             let mut cells = Vec::new();

@@ -190,28 +190,22 @@ fn numerals_that_were_typed_outside_the_prose_are_refused() {
         let mut given = with_digit();
         given.edition.equations[0].digits = digits;
         let error = given.made().err().map(|error| error.to_string()).unwrap_or_default();
-        assert_eq!(
-            error.contains("equation (18) has the digits 2, in the list 3"),
-            fails,
-            "{error}"
-        );
+        let fault = "equation (18) has the digits 2, in the list 3";
+        assert_eq!(error.contains(fault), fails, "{error}");
     }
 }
 
 #[test]
 fn a_table_is_turned_and_made_small_until_it_fits_or_refused() {
-    let tight = "\\setlength{\\tabcolsep}{3pt}\n";
     for (columns, expected) in [
-        (5, "\n\n{\\footnotesize\n\\begin{longtable}{lllll}".into()),
-        (7, format!("\n\n{{\\footnotesize\n{tight}")),
-        (11, format!("\\begin{{landscape}}\n{{\\footnotesize\n{tight}")),
-        (14, format!("\\begin{{landscape}}\n{{\\tiny\n{tight}")),
-        (16, "report.md:14:1: its 16 columns do not fit on a page".into()),
+        (5, "\n\n{\\footnotesize\n\\begin{longtable}{lllll}"),
+        (14, "\\begin{landscape}\n{\\tiny\n\\setlength{\\tabcolsep}{3pt}\n"),
+        (16, "report.md:14:1: its 16 columns do not fit on a page"),
     ] {
         let rows = ["| h ", "|--", "| elevenwords "].map(|cell| cell.repeat(columns) + "|\n");
         let report = assembled(&format!("{PROSE}\n\n{}", rows.concat()));
         let tex = report.map_or_else(|error| error.to_string(), |files| file(&files, "report.tex"));
-        assert!(tex.contains(&*expected), "{columns}: {tex}");
+        assert!(tex.contains(expected), "{columns}: {tex}");
     }
 }
 
