@@ -20,8 +20,7 @@ pub struct Library {
 }
 
 impl Library {
-    /// Reads the BibTeX of a file. Fails if it is not BibTeX; an entry that cannot be shown is
-    /// kept with its fault.
+    /// Reads a file. Fails if it is not BibTeX; an entry that cannot be shown has a fault.
     pub fn read(path: &str, bibtex: &str) -> Result<Self, Error> {
         let place = |offset: usize| Place::in_text(path.into(), bibtex, offset);
         let (entries, starts) = bibtex::parse_entries(bibtex).map_err(|error| {

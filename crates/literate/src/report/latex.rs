@@ -267,12 +267,13 @@ fn columns(table: &Table) -> Vec<Column> {
     columns.map(|(i, align)| Column::new(table, i, *align)).collect()
 }
 
-/// Returns which of [`LINES`] holds a table, with gaps that may be halved, or `None` if it fits on
+/// Returns in which line, of the three, a table fits with gaps that may be halved, or `None` if on
 /// no page.
-fn line_of(columns: &[Column]) -> Option<usize> {
+pub fn line_of(table: &Table) -> Option<usize> {
+    let columns = columns(table);
     let total: usize = columns.iter().map(|column| column.width + 2).sum();
     let first = usize::from(total > ACROSS);
-    (first..LINES.len()).find(|line| least(columns, 0.5) <= LINES[*line] as f64)
+    (first..LINES.len()).find(|line| least(&columns, 0.5) <= LINES[*line] as f64)
 }
 
 /// Returns how narrow columns can be together, with a share of the usual gaps.
@@ -281,13 +282,8 @@ fn least(columns: &[Column], gap: f64) -> f64 {
     least as f64 + gap * GAPS * columns.len() as f64
 }
 
-pub fn fits(table: &Table) -> bool {
-    line_of(&columns(table)).is_some()
-}
-
 fn table(table: &Table) -> String {
-    let columns = columns(table);
-    let place = line_of(&columns).unwrap_or_default();
+    let (columns, place) = (columns(table), line_of(table).unwrap_or(LINES.len() - 1));
     let (across, small, line) = (place > 0, place > 1, LINES[place] as f64);
     let total: usize = columns.iter().map(|column| column.width + 2).sum();
     let wraps = total as f64 > line;

@@ -340,7 +340,7 @@ impl<'a> Reader<'a> {
         }
         let head = if rows.is_empty() { Vec::new() } else { rows.remove(0) };
         let table = Table { columns, head, rows, ..Table::default() };
-        if !latex::fits(&table) {
+        if latex::line_of(&table).is_none() {
             let problem = "columns do not fit on a page of LaTeX, on its side and in small letters";
             return Err(fault(format!("its {} {problem}; leave some out", table.columns.len())));
         }
