@@ -39,8 +39,7 @@ pub fn paper() -> Paper {
     let paper = experiments::bare();
     Paper {
         edition: Edition {
-            // What owner.toml says, by way of Cargo.toml.
-            authors: env!("CARGO_PKG_AUTHORS").split(':').map(|name| (name, "")).collect(),
+            authors: AUTHORS.to_vec(),
             address: env!("CARGO_PKG_REPOSITORY"),
             doi: "",
             date: "2026-11-28",
@@ -65,6 +64,10 @@ pub fn paper() -> Paper {
         ..paper
     }
 }
+
+/// Names and affiliations, which `make owner` writes.
+#[rustfmt::skip]
+const AUTHORS: &[(&str, &str)] = &[("The impact-paper authors", "")];
 
 /// A document whose files have the name of its prose.
 macro_rules! document {

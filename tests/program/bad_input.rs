@@ -119,7 +119,7 @@ paper --profile quick --out file => --out: file: ; a file is in the way
 paper --profile quick --figure 3 --results file => --results: file: 
 paper --templates nowhere => nowhere
 check --templates empty => empty: no prose is there; front
-check --profile quick --results r no-such => no statement no-such; check -v
+check --profile quick --results r no-such => no statement or relation no-such; check -v
 verify => paper/SHA256SUMS: 
 run --profile quick --shard 0/3|4/3 --results d => 1 <= i <= N
 explain --paper nowhere x => --paper

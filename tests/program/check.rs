@@ -48,6 +48,8 @@ fn every_statement_is_listed_and_one_that_differs_fails() {
     // One by its number in the ledger.
     let (code, one, _) = check(folder.path(), "1");
     assert!(code == 0 && one.contains("1 statement of the paper"), "{one}");
+    let (code, one, _) = check(folder.path(), "two_seeds");
+    assert!(code == 0 && one.contains("1 of 1 relations between numbers hold"), "{one}");
     // The statements of the paper and our relations are scored apart.
     let scores: Vec<&str> =
         text.lines().skip_while(|line| !line.contains(" statements of the paper: ")).collect();

@@ -50,12 +50,16 @@ fn things_are_found_by_part_by_number_and_as_people_write_them() {
     let folder = report();
     let values: serde_json::Value = serde_json::from_slice(&QUICK.report["values.json"]).unwrap();
     let half = values["sweep.rise.half_height"]["number"]["real"]["value"].to_string();
+    let number = |value: &serde_json::Value| value["number"]["real"]["value"].as_f64();
+    let is_below = |value| number(value).is_some_and(|number| (-0.9..-0.01).contains(&number));
+    let below = values.as_object().unwrap().iter().find(|(_, value)| is_below(value)).unwrap().0;
     for (asked, id) in [
         ("Fig. 3", "fig:3: "),
         ("Eq. (18)", "eq:18: "),
         ("SEC7_JUMP", "claim:sec7_jump: "),
         ("sweep.rise.half", "sweep.rise.half_height "),
         (&half[..5], "sweep.rise.half_height"),
+        ("−0.", below),
     ] {
         let mut command = program(folder.path(), "explain --paper r");
         let (code, card, note) = outcome(command.arg(asked));

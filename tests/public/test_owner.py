@@ -136,8 +136,10 @@ class Filled(unittest.TestCase):
                 self.assertEqual(project["urls"]["Repository"], REPOSITORY)
 
     def test_pages_and_prose(self):
-        # Pages have authors and address from Cargo.toml, and the DOI from here.
+        # Pages have their address from Cargo.toml, and authors and the DOI from here.
         self.assertIn(f'            doi: "{DOI}",\n', self.text("src/lib.rs"))
+        authors = """&[("Ada Example", "Somewhere"), ("Zoë O'Neill", "")];\n"""
+        self.assertIn(authors, self.text("src/lib.rs"))
         self.assertIn('address: env!("CARGO_PKG_REPOSITORY")', self.text("src/lib.rs"))
         for path in ("SECURITY.md", "CODE_OF_CONDUCT.md"):
             self.assertIn("in confidence. The way: <safety@example.org>.\n", self.text(path))

@@ -118,6 +118,7 @@ static QUICK: LazyLock<Quick> = LazyLock::new(|| {
             edition: &paper.edition,
             project: &paper.project,
             experiments: &paper.experiments,
+            warn: &|line| panic!("{line}"),
         };
         assemble(&input).unwrap_or_else(|error| panic!("{error}"))
     };

@@ -127,6 +127,7 @@ pub fn make_report(
         edition: &paper.edition,
         project: &paper.project,
         experiments: &paper.experiments,
+        warn: &|line| progress.say(line),
     })?;
     Ok((report, checks))
 }

@@ -42,10 +42,11 @@ impl Decimal {
         Decimal::read(&format!("{:e}", x.abs()))
     }
 
-    /// Returns the same number without zeros at the end of its digits.
+    /// Returns the same number without zeros at the end of its digits; zero has no decimals.
     pub fn trimmed(mut self) -> Decimal {
         let length = self.digits.trim_end_matches('0').len();
-        self.places -= (self.digits.len() - length) as i32;
+        self.places =
+            if length == 0 { 0 } else { self.places - (self.digits.len() - length) as i32 };
         self.digits.truncate(length);
         self
     }

@@ -26,7 +26,7 @@ use std::collections::BTreeMap;
 #[derive(clap::Args)]
 #[command(verbatim_doc_comment)]
 pub(super) struct Args {
-    /// Judge only these statements, by id or by number in the ledger.
+    /// Judge only these statements and relations, by id or by number in the ledger.
     #[arg(value_name = "ID")]
     ids: Vec<String>,
     /// Print all that is known of each, including those that are reproduced or hold.
@@ -39,11 +39,14 @@ pub(super) struct Args {
 pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     let session = args.options.session(paper)?;
     let published = paper.published(&session)?;
+    let relations = paper.rules.iter().filter(|rule| !rule.is_of_statement());
+    let statements = published.statements.iter().map(|statement| statement.id.as_str());
+    let ids: Vec<&str> = statements.chain(relations.map(|rule| rule.id)).collect();
     for asked in &args.ids {
         let is_number = asked.parse().is_ok_and(|n| (1..=published.statements.len()).contains(&n));
-        if !is_number && !published.statements.iter().any(|statement| statement.id == *asked) {
-            let ids = published.statements.iter().map(|statement| statement.id.as_str());
-            let problem = no_such("statement", &one_line(asked, 60), ids);
+        if !is_number && !ids.contains(&asked.as_str()) {
+            let ids = ids.iter().copied();
+            let problem = no_such("statement or relation", &one_line(asked, 60), ids);
             return Err(Failure::input(format!("{problem}; `check -v` lists all")));
         }
     }

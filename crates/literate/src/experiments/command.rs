@@ -200,6 +200,9 @@ impl Command {
         let mut reader = serde_json::Deserializer::from_slice(printed);
         let tables = tables_by_name(&mut reader).and_then(|tables| reader.end().map(|()| tables));
         let tables = tables.map_err(|error| {
+            if error.is_data() {
+                return format!("printed tables that cannot be read: {error}; {form}");
+            }
             let printed = String::from_utf8_lossy(printed);
             let first_lines: Vec<&str> = printed.lines().take(5).collect();
             let problem = format!("printed no tables in JSON, which has null for NaN: {error}");

@@ -37,7 +37,11 @@ struct Cell {
 impl<'de> Deserialize<'de> for Cell {
     fn deserialize<D: Deserializer<'de>>(reader: D) -> Result<Self, D::Error> {
         let text = Box::<RawValue>::deserialize(reader)?.get().to_string();
-        Ok(Cell { json: serde_json::from_str(&text).map_err(D::Error::custom)?, text })
+        let beyond = |_| format!("{text} is beyond double precision (print it in another unit)");
+        Ok(Cell {
+            json: serde_json::from_str(&text).map_err(beyond).map_err(D::Error::custom)?,
+            text,
+        })
     }
 }
 
@@ -64,7 +68,9 @@ pub(super) fn tables_by_name<'de, D: Deserializer<'de>>(
             let mut tables = BTreeMap::new();
             while let Some((name, table)) = map.next_entry::<String, PrintedTable>()? {
                 if tables.insert(name.clone(), table).is_some() {
-                    return Err(A::Error::custom(format!("there are two tables {name}")));
+                    return Err(A::Error::custom(format!(
+                        "two tables have the name {name} (rename one)"
+                    )));
                 }
             }
             Ok(tables)
@@ -120,7 +126,7 @@ impl PrintedTable {
     fn fault_in(&self, row: &[Cell]) -> Option<String> {
         let all = self.names().count();
         if row.len() != all {
-            return Some(format!("has {} cells for {all} names", row.len()));
+            return Some(format!("has {} of {all} cells; null is none", row.len()));
         }
         for (at, (name, Cell { json: cell, .. })) in self.names().zip(row).enumerate() {
             if cell.is_array() || cell.is_object() {

@@ -13,7 +13,7 @@ use super::input::{Input, LAB};
 use super::labels::Labels;
 use super::ledger::{EquationEntry, Ledger};
 use super::lint::Declared;
-use super::mark::ids;
+use super::mark;
 use super::parse::Parsed;
 use super::values::Registry;
 use super::{coded, html, latex, ledger, markdown, parse, search};
@@ -35,7 +35,8 @@ struct Part<'a> {
 /// once: first what Tera says, then what can be read and resolved, then what can be written.
 pub fn assemble(input: &Input<'_>) -> Result<Files, Error> {
     let (mut values, mut filler, filled) = fill(input)?;
-    let used: BTreeSet<String> = filled.iter().flat_map(|filled| ids(&filled.text)).collect();
+    let used: BTreeSet<String> =
+        filled.iter().flat_map(|filled| mark::values(&filled.text)).map(|(id, ..)| id).collect();
     values.keep_cells(used.iter().map(String::as_str));
     values.shorten(&input.project.sources);
 
@@ -115,10 +116,8 @@ fn parts<'a>(
     values: &'a Registry,
     declared: &'a Declared,
 ) -> Result<(Vec<Part<'a>>, Labels), Error> {
-    let library = Library::read(input.templates.text("references.bib")?).map_err(|error| {
-        let placed = |error: Error| Error::Template(input.templates.place(&error.to_string()));
-        Error::Several(error.into_list().into_iter().map(placed).collect())
-    })?;
+    let path = input.templates.place("references.bib");
+    let library = Library::read(&path, input.templates.text("references.bib")?)?;
     let (mut labels, mut placed, mut errors) = (Labels::default(), BTreeSet::new(), Vec::new());
     let mut parts: Vec<Part<'_>> = Vec::new();
     let parsed = |filled| parse::parse(filled, values, declared, &input.project.sources);
@@ -164,6 +163,7 @@ fn parts<'a>(
         errors.extend(resolved.err().map(|error| places.locate(error)));
     }
     all_in_order(errors)?;
+    library.warnings().for_each(|line| (input.warn)(&line));
     Ok((parts, labels))
 }
 
@@ -265,11 +265,8 @@ fn write_documents(
 /// Returns a figure's picture for a dark page, in the colours of the style sheet, if it has any.
 fn dark(figure: &Figure, style: &str) -> Option<(String, Vec<u8>)> {
     let (_, dark) = style.split_once("prefers-color-scheme: dark")?;
-    let colours = dark
-        .split_once('}')?
-        .0
-        .split("--")
-        .filter_map(|rule| rule.split(';').next()?.split_once(": "));
+    let (dark, _) = dark.split_once('}')?;
+    let colours = dark.split("--").filter_map(|rule| rule.split(';').next()?.split_once(": "));
     let rule =
         |(name, colour)| format!(".fill-{name}{{fill:{colour}}}.stroke-{name}{{stroke:{colour}}}");
     let rules: String = colours.map(rule).collect();

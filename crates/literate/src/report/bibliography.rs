@@ -3,30 +3,36 @@
 use super::bibtex;
 use super::document::{Inline, Reference, to_plain_text, words_and_maths};
 use super::error::Error;
+use super::latex;
 use super::people::{citation_names, list_authors, list_editors, parse_people};
-use crate::input::Place;
+use super::tex;
+use crate::input::{Place, one_line};
 use biblatex::{ChunksExt, Entry, EntryType, ParseErrorKind};
 use std::cell::RefCell;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use unicode_normalization::{UnicodeNormalization, char::is_combining_mark};
 
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Library(Vec<Reference>);
+pub struct Library {
+    references: Vec<Reference>,
+    /// What is wrong with entries that nobody may cite, by their keys, and where they stand.
+    faults: BTreeMap<String, (Place, String)>,
+}
 
 impl Library {
-    /// Reads BibTeX. All entries that cannot be shown are reported at once.
-    pub fn read(bibtex: &str) -> Result<Self, Error> {
-        let fault = |problem: String| Error::Template(format!("references.bib:{problem}"));
-        let entries = bibtex::parse_entries(bibtex).map_err(|error| {
-            let place = Place::in_text("references.bib".into(), bibtex, error.span.start);
+    /// Reads a file. Fails if it is not BibTeX; an entry that cannot be shown has a fault.
+    pub fn read(path: &str, bibtex: &str) -> Result<Self, Error> {
+        let place = |offset: usize| Place::in_text(path.into(), bibtex, offset);
+        let (entries, starts) = bibtex::parse_entries(bibtex).map_err(|error| {
             let remedy = match error.kind {
                 ParseErrorKind::UnknownAbbreviation(_) => "give it above",
                 ParseErrorKind::DuplicateKey(_) => "rename or remove one",
                 _ => "is a brace or a comma missing before?",
             };
-            Error::Template(format!("{place}: {}; {remedy}", error.kind))
+            let problem = format!("{}; {remedy}", error.kind);
+            Error::Template(problem).with_place(place(error.span.start))
         })?;
-        let (mut references, mut errors) = (Vec::new(), Vec::new());
+        let (mut references, mut faults) = (Vec::new(), BTreeMap::new());
         let parents = bibtex::parents(&entries);
         for entry in entries.iter() {
             let completed = bibtex::completed(entry, &entries, &[]);
@@ -34,22 +40,35 @@ impl Library {
             match completed.and_then(|completed| reference(&completed, entry)) {
                 Ok(reference) => references.push(reference),
                 Err(_) if is_parent || entry.entry_type == EntryType::XData => (),
-                Err(problem) => errors.push(fault(format!(" {} {problem}", entry.key))),
+                Err(problem) => {
+                    faults.insert(entry.key.clone(), (place(starts[&entry.key]), problem));
+                }
             }
         }
-        Error::check(errors)?;
         references
             .sort_by_cached_key(|reference| sort_key(&to_plain_text(&reference.to_inlines())));
-        Ok(Library(references))
+        Ok(Library { references, faults })
+    }
+
+    /// Returns what is wrong with the entry that has a key, or `None` if there is no such fault.
+    pub fn fault(&self, key: &str) -> Option<Error> {
+        let (place, problem) = self.faults.get(key)?;
+        Some(Error::Template(format!("{key} {problem}")).with_place(place.clone()))
+    }
+
+    /// Returns a line for each entry that is wrong, for reports that cite none of them.
+    pub fn warnings(&self) -> impl Iterator<Item = String> {
+        let line = |key, place, problem| format!("{place}: {key}, which nobody cites, {problem}");
+        self.faults.iter().map(move |(key, (place, it))| one_line(&line(key, place, it), 1000))
     }
 
     pub fn keys(&self) -> impl Iterator<Item = &str> {
-        self.0.iter().map(|reference| reference.key.as_str())
+        self.references.iter().map(|reference| reference.key.as_str())
     }
 
     /// Returns the list of these entries; like labels get letters after the year: 1954a.
     pub fn list(&self, keys: &BTreeSet<String>) -> Vec<Reference> {
-        let cited = self.0.iter().filter(|reference| keys.contains(&reference.key));
+        let cited = self.references.iter().filter(|reference| keys.contains(&reference.key));
         let mut list: Vec<Reference> = cited.cloned().collect();
         let labels: Vec<_> = list.iter().map(|one| (one.names.clone(), one.year.clone())).collect();
         for (index, reference) in list.iter_mut().enumerate() {
@@ -113,6 +132,7 @@ fn reference(entry: &Entry, own: &Entry) -> Result<Reference, String> {
             vec![[emphasised(title), edition].concat(), field("publisher")?]
         }
         EntryType::InProceedings | EntryType::InCollection | EntryType::InBook => {
+            field("editor")?;
             let editors = if authors.is_empty() { "" } else { &list_editors(&editors) };
             let volume = enclosed("Vol. ", field("volume")?, "");
             let pages = field("pages")?;
@@ -154,22 +174,21 @@ fn reference(entry: &Entry, own: &Entry) -> Result<Reference, String> {
         let link = Inline::Link { to: to.clone(), words: vec![Inline::Text(to)] };
         rest.extend(enclosed(" ", vec![link], ""));
     }
-    let has_editors_in = matches!(
-        entry.entry_type,
-        EntryType::InProceedings | EntryType::InCollection | EntryType::InBook
-    );
-    if authors.is_empty() || has_editors_in {
-        read_fields.borrow_mut().insert("editor".into());
+    if authors.is_empty() {
+        field("editor")?;
     }
     bibtex::refuse_left_out(own, &read_fields.borrow())?;
     let [year, date] = [field("year")?, field("date")?].map(|inlines| to_plain_text(&inlines));
-    Ok(Reference {
+    let reference = Reference {
         key: entry.key.clone(),
         names: citation_names(people),
         year: bibtex::parse_year(&year, &date)?,
         authors: if authors.is_empty() { list_as_editors(people) } else { list_authors(people) },
         rest,
-    })
+    };
+    let unknown = tex::unknown(&latex::inlines(&reference.to_inlines())).pop_first();
+    let problem = "is not known in LaTeX; write it in Latin letters";
+    unknown.map_or(Ok(reference), |c| Err(format!("has the character {c:?}, which {problem}")))
 }
 
 /// Joins neighbouring words, so that a title with a subtitle is emphasised as a whole.
@@ -300,7 +319,10 @@ mod tests {
 
     /// The list of all entries in Markdown, each after what a citation shows; or the fault.
     fn list(text: &str) -> Result<Vec<String>, String> {
-        let library = Library::read(text).map_err(|error| error.to_string())?;
+        let library = Library::read("references.bib", text).map_err(|error| error.to_string())?;
+        if let Some(key) = library.faults.keys().next() {
+            return Err(library.fault(key).unwrap().to_string());
+        }
         let keys = library.keys().map(String::from).collect();
         let markdown_of = |entry: &Reference| markdown::inlines(&entry.to_inlines());
         let entry = |one: &Reference| format!("{}, {}: {}", one.names, one.year, markdown_of(one));
@@ -331,7 +353,7 @@ mod tests {
         let entry = |i| format!("@book{{k{i}, author={{A}}, title={{{i:02}}}, year={{1}}}}\n");
         let mut bibtex: String = (0..60).map(entry).collect();
         bibtex += "@book{own, author={A}, title={T}, year={1ab}}";
-        let library = Library::read(&bibtex).unwrap();
+        let library = Library::read("references.bib", &bibtex).unwrap();
         let list = library.list(&library.keys().map(String::from).collect());
         let years: Vec<&str> = list.iter().map(|one| one.year.as_str()).collect();
         assert_eq!(years[24..28], ["1y", "1z", "1aa", "1ac"], "1ab is taken");

@@ -3,7 +3,7 @@
 use biblatex::EntryType::*;
 use biblatex::{Bibliography, ChunksExt, Entry, ParseError, ParseErrorKind};
 use biblatex::{RawBibliography, RawChunk};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Groups of fields of which an entry needs one: an entry that has one of a group inherits none of
 /// it.
@@ -18,8 +18,9 @@ const ALIKE: [&[&str]; 4] = [
 /// in a circle it would not end.
 const PARENTS: [&str; 2] = [" xdata", " crossref"];
 
-/// Reads the entries. An abbreviation may be made of those that stand before it.
-pub fn parse_entries(bibtex: &str) -> Result<Bibliography, ParseError> {
+/// Reads the entries, and where each of them begins, by their keys. An abbreviation may be made of
+/// those that stand before it.
+pub fn parse_entries(bibtex: &str) -> Result<(Bibliography, BTreeMap<String, usize>), ParseError> {
     let bibtex = with_braced_values(bibtex);
     let mut raw = RawBibliography::parse(&bibtex)?;
     for (place, pair) in raw.abbreviations.iter().enumerate() {
@@ -43,7 +44,9 @@ pub fn parse_entries(bibtex: &str) -> Result<Bibliography, ParseError> {
         let is_it = |name: &&&str| name.trim().eq_ignore_ascii_case(field.key.v);
         field.key.v = PARENTS.iter().find(is_it).unwrap_or(&field.key.v);
     }
-    Bibliography::from_raw(raw)
+    let starts = raw.entries.iter().map(|entry| (entry.v.key.v.to_string(), entry.span.start));
+    let starts = starts.collect();
+    Ok((Bibliography::from_raw(raw)?, starts))
 }
 
 /// Writes quoted values in braces, since they may have quotes in braces, and `\'\i` as `\' i`,
@@ -91,10 +94,8 @@ fn parent_keys(entry: &Entry, field: &str) -> Vec<String> {
 
 /// Returns the keys of all that are parents of others; they need not be complete.
 pub fn parents(entries: &Bibliography) -> Vec<String> {
-    entries
-        .iter()
-        .flat_map(|entry| PARENTS.iter().flat_map(|field| parent_keys(entry, field)))
-        .collect()
+    let keys = |entry| PARENTS.iter().flat_map(move |field| parent_keys(entry, field));
+    entries.iter().flat_map(keys).collect()
 }
 
 /// Returns an entry with the fields that it inherits from its parents. The keys of the entries that

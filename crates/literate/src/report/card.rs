@@ -106,13 +106,13 @@ impl Cards<'_> {
         if lower.is_empty() {
             return Vec::new();
         }
+        // Reports have a minus that no keyboard has.
+        let digits = asked.replace('−', "-");
+        let begins = |value: &Value| value.to_plain_text().starts_with(&digits);
         let mut ids = self.ids();
-        ids.retain(|id| id.to_lowercase().contains(&lower));
-        if ids.is_empty() {
-            let digits =
-                self.values.iter().filter(|value| value.to_plain_text().starts_with(&asked));
-            ids.extend(digits.map(|value| value.id.clone()));
-        }
+        ids.retain(|id| {
+            id.to_lowercase().contains(&lower) || self.values.get(id).is_some_and(begins)
+        });
         ids
     }
 

@@ -1,8 +1,9 @@
 //! Keeps where each piece of the filled prose stands in the templates.
 
 use super::error::{Error, Thing};
-use super::mark::{Piece, framed, pieces};
+use super::mark::{self, Piece, framed, pieces};
 use super::typed::{self, Names};
+use super::values::Registry;
 use crate::input::Place;
 
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -75,12 +76,13 @@ impl Filled {
 #[derive(Clone, Debug)]
 pub struct Places<'a> {
     filled: &'a Filled,
+    values: &'a Registry,
     offsets: Vec<(Thing, usize)>,
 }
 
 impl<'a> Places<'a> {
-    pub fn new(filled: &'a Filled) -> Self {
-        Places { filled, offsets: Vec::new() }
+    pub fn new(filled: &'a Filled, values: &'a Registry) -> Self {
+        Places { filled, values, offsets: Vec::new() }
     }
 
     pub fn add(&mut self, thing: Thing, offset: usize) {
@@ -110,13 +112,23 @@ impl<'a> Places<'a> {
             }
             Error::Named { thing, .. } => self.offset(thing),
             Error::Maths { tex, .. } => self.offset(&Thing::Formula(tex.clone())),
-            Error::NoLatex(c) => self.filled.text.find(*c),
+            Error::NoLatex(c) => self.filled.text.find(*c).or_else(|| self.value_with(*c)),
             _ => None,
         };
         match offset {
             Some(offset) => error.with_place(self.filled.place(offset)),
+            None if matches!(error, Error::NoLatex(_)) => {
+                error.with_place("the authors, or the code of a listing".to_string())
+            }
             None => error,
         }
+    }
+
+    /// Returns where the first value stands whose words have a character.
+    fn value_with(&self, c: char) -> Option<usize> {
+        let words = |id: &str| Some(self.values.get(id)?.to_plain_text());
+        let mut values = mark::values(&self.filled.text);
+        values.find_map(|(id, _, at)| words(&id)?.contains(c).then_some(at.start))
     }
 
     fn offset(&self, thing: &Thing) -> Option<usize> {

@@ -47,16 +47,11 @@ impl Filler {
             comment_end: "#>".into(),
         };
         // Tera reads what follows each of them within it.
-        let long = |(path, text): (&str, &str)| {
-            Some((path.to_string(), text.match_indices("elif").nth(200)?.0))
-        };
-        if let Some((path, offset)) = templates.iter().find_map(long) {
-            return Err(fault(
-                templates,
-                &path,
-                offset,
-                "more than 200 `elif` in a file; write a table",
-            ));
+        for (path, text) in templates.iter() {
+            if let Some((offset, _)) = text.match_indices("elif").nth(200) {
+                let problem = "more than 200 `elif` in a file; write a table";
+                return Err(fault(templates, path, offset, problem));
+            }
         }
         let set = tera.set_delimiters(delimiters);
         tera.autoescape_on(Vec::<&str>::new());
@@ -105,8 +100,8 @@ impl Filler {
         Ok(filled)
     }
 
-    /// Refuses names in conditions that do not exist, which Tera takes for *false*, and plain
-    /// numbers outside of conditions.
+    /// Refuses names in conditions that do not exist, which Tera takes for *false*, plain numbers
+    /// outside of conditions, and filters on values that take plain numbers or words.
     fn conditions(&self, path: &str, template: &str) -> Result<(), Error> {
         let uses = |group| template.match_indices(group).map(|(offset, _)| offset);
         for offset in uses("raw.").chain(uses("keys.")) {
@@ -120,6 +115,20 @@ impl Filler {
                 !template[..offset].ends_with(|c: char| c.is_alphanumeric() || "._".contains(c));
             if let Some(problem) = self.describe_missing(&template[offset..]).filter(|_| begins) {
                 return Err(self.fault(path, offset, &problem));
+            }
+        }
+        for (offset, _) in template.match_indices('«') {
+            let tag = template[offset..].split('»').next().unwrap_or_default();
+            let group = tag.trim_start_matches(['«', '-', ' ']).split(['.', '[']).next();
+            let is_value =
+                |name| self.names.get(name).is_some() && !["raw", "keys"].contains(&name);
+            // Words in quotation marks may have bars.
+            let bare: String = tag.split('"').step_by(2).collect();
+            let filters = bare.split('|').skip(1).filter_map(|rest| rest.trim().split('(').next());
+            let mut filters = filters.map(str::trim).filter(|_| group.is_some_and(is_value));
+            if let Some(other) = filters.find(|filter| !FILTERS.contains(filter)) {
+                let problem = "is no filter for values; write «… | significant(digits=2)»";
+                return Err(self.fault(path, offset, &format!("`{other}` {problem}")));
             }
         }
         Ok(())
@@ -199,10 +208,8 @@ impl Filler {
         let problem = match self.describe_missing(inside) {
             Some(missing) => missing,
             None if problem.contains(NOT_TRUE) => {
-                format!(
-                    "{problem}: {inside}, where {}; correct the sentence",
-                    self.list_numbers(inside)
-                )
+                let numbers = self.list_numbers(inside);
+                format!("{problem}: {inside}, where {numbers}; correct the sentence")
             }
             None => problem,
         };
@@ -212,11 +219,8 @@ impl Filler {
 
 fn fault(templates: &Templates, path: &str, offset: usize, problem: &str) -> Error {
     let template = templates.text(path).unwrap_or_default();
-    Error::Template(problem.into()).with_place(Place::in_text(
-        templates.place(path),
-        template,
-        offset,
-    ))
+    let place = Place::in_text(templates.place(path), template, offset);
+    Error::Template(problem.into()).with_place(place)
 }
 
 /// A template writes at most this many bytes.
@@ -261,6 +265,7 @@ fn steps(expression: &str) -> Vec<(Option<&str>, usize)> {
     }
 }
 
+const FILTERS: [&str; 3] = ["percent", "significant", "otherwise"];
 const NOT_TRUE: &str = "the words before are no longer true";
 
 /// Returns path and text of a file that Tera fills; prose has marks of its places.
@@ -335,8 +340,8 @@ fn register(tera: &mut Tera, empty: BTreeSet<String>) {
     });
     tera.register_filter("otherwise", move |mark: &str, arguments: Kwargs, _: &State| {
         let words: String = arguments.must_get("words")?;
-        let is_empty = |id| empty.contains(&id);
-        Ok::<_, tera::Error>(if mark::ids(mark).any(is_empty) { words } else { mark.into() })
+        let is_empty = |(id, ..): (String, _, _)| empty.contains(&id);
+        Ok::<_, tera::Error>(if mark::values(mark).any(is_empty) { words } else { mark.into() })
     });
     tera.register_function("literal", |arguments: Kwargs, _: &State| {
         let literal: String = arguments.must_get("text")?;

@@ -27,6 +27,8 @@ pub struct Input<'a> {
     pub edition: &'a Edition,
     pub project: &'a Project,
     pub experiments: &'a [&'static dyn AnyExperiment],
+    /// Tells what is wrong and stops no report.
+    pub warn: &'a (dyn Fn(&str) + Sync),
 }
 
 impl<'a> Input<'a> {

@@ -28,12 +28,18 @@ pub struct Labels {
 
 impl Labels {
     fn add(&mut self, id: &str, number: &str, document: Document) -> Option<Error> {
+        let fault = |problem: &str| {
+            Some(Error::Named { thing: Thing::Id(id.into()), problem: format!("{id}: {problem}") })
+        };
+        let name = id.split_once(':').map_or(id, |(_, name)| name);
+        let (shown, digits) = (number.trim_matches(['(', ')']), name.strip_prefix(document.letter));
+        if digits.is_some_and(|it| it.parse::<u32>().is_ok()) && ![name, ""].contains(&shown) {
+            return fault(&format!("its number is {shown}; give it an id of letters"));
+        }
         if self.labels.insert(id.to_string(), Label { number: number.into(), document }).is_none() {
             return self.take_place(id, place_on_page(id), document.page);
         }
-        let problem =
-            format!("{id}: two things in the report have this id; give one of them another");
-        Some(Error::Named { thing: Thing::Id(id.into()), problem })
+        fault("two things in the report have this id; give one of them another")
     }
 
     /// Refuses a place on a page that another id has, of which links could find one only.
@@ -181,6 +187,7 @@ impl Labels {
                 cited.extend(ids.iter().filter(|id| is_key(id)).cloned());
             }
         });
+        errors.extend(cited.iter().filter_map(|key| library.fault(key)));
         let list = library.list(&cited);
         rewrite(blocks, &mut |inline| {
             let Inline::Unresolved { ids, in_sentence } = inline else { return vec![inline] };
@@ -285,11 +292,8 @@ fn cite(
         let entry = list.iter().find(|entry| entry.key == *key);
         let Reference { names, year, .. } = entry.ok_or_else(|| {
             let problem = "nothing in the report and no entry of references.bib has this id";
-            Error::unknown(
-                Thing::Reference(key.clone()),
-                format!("[@{key}]: {problem}"),
-                library.keys(),
-            )
+            let (thing, problem) = (Thing::Reference(key.clone()), format!("[@{key}]: {problem}"));
+            library.fault(key).unwrap_or_else(|| Error::unknown(thing, problem, library.keys()))
         })?;
         let (to, within) = (format!("ref:{key}"), None);
         if in_sentence {

@@ -99,7 +99,9 @@ fn write_block(block: &Block) -> String {
             let kind = if start.is_some() { "enumerate" } else { "itemize" };
             let mut latex = format!("\\begin{{{kind}}}\n");
             if let Some(start) = start.filter(|start| *start != 1) {
-                latex.push_str(&format!("\\setcounter{{enumi}}{{{}}}\n", start.saturating_sub(1)));
+                let before = start.saturating_sub(1);
+                let counter = r"\csname @enumctr\endcsname";
+                latex.push_str(&format!("\\setcounter{{{counter}}}{{{before}}}\n"));
             }
             for item in items {
                 latex.push_str(&format!("\\item {}\n", separated(body(item).trim_end())));
@@ -223,7 +225,9 @@ fn address(to: &str) -> String {
     document::address(to).replace('%', r"\%").replace('#', r"\#").replace('&', r"\&")
 }
 
-/// Characters that fit into a line of the page in the size of tables.
+/// Characters that fit into a line of the page in the size of tables, into one of the page on its
+/// side, and there in small letters.
+const LINES: [usize; 3] = [LINE, LINE * 3 / 2, LINE * 2];
 const LINE: usize = 92;
 
 /// A table whose longest cells have more characters than this together is turned on its side.
@@ -258,19 +262,33 @@ impl Column {
     }
 }
 
-fn table(table: &Table) -> String {
+fn columns(table: &Table) -> Vec<Column> {
     let columns = table.columns.iter().enumerate();
-    let columns: Vec<Column> = columns.map(|(i, align)| Column::new(table, i, *align)).collect();
+    columns.map(|(i, align)| Column::new(table, i, *align)).collect()
+}
+
+/// Returns in which line, of the three, a table fits with gaps that may be halved, or `None` if on
+/// no page.
+pub fn line_of(table: &Table) -> Option<usize> {
+    let columns = columns(table);
     let total: usize = columns.iter().map(|column| column.width + 2).sum();
+    let first = usize::from(total > ACROSS);
+    (first..LINES.len()).find(|line| least(&columns, 0.5) <= LINES[*line] as f64)
+}
+
+/// Returns how narrow columns can be together, with a share of the usual gaps.
+fn least(columns: &[Column], gap: f64) -> f64 {
     let least: usize = columns.iter().map(|column| column.least).sum();
-    let gaps = GAPS * columns.len() as f64;
-    let fits = |gaps: f64| total <= ACROSS && least as f64 + gaps <= LINE as f64;
-    // Gaps are halved before a table is turned on its side.
-    let (tight, across) = (!fits(gaps) && fits(0.5 * gaps), !fits(0.5 * gaps));
-    let line = if across { LINE * 3 / 2 } else { LINE };
-    let wraps = total > line;
+    least as f64 + gap * GAPS * columns.len() as f64
+}
+
+fn table(table: &Table) -> String {
+    let (columns, place) = (columns(table), line_of(table).unwrap_or(LINES.len() - 1));
+    let (across, small, line) = (place > 0, place > 1, LINES[place] as f64);
+    let total: usize = columns.iter().map(|column| column.width + 2).sum();
+    let wraps = total as f64 > line;
     let layout = if wraps {
-        shared_layout(&columns, line as f64, (line as f64 - gaps - least as f64).max(0.0))
+        shared_layout(&columns, line)
     } else {
         columns.iter().map(|column| column.letter).collect()
     };
@@ -279,8 +297,10 @@ fn table(table: &Table) -> String {
         format!("{} \\\\\n", separated(&cells.join(" & ").replace('\n', " ")))
     };
     let mut latex = String::from(if across { "\\begin{landscape}\n" } else { "" });
-    let gap = if tight { "\\setlength{\\tabcolsep}{3pt}\n" } else { "" };
-    latex.push_str(&format!("{{\\footnotesize\n{gap}\\begin{{longtable}}{{{layout}}}\n"));
+    let size = if small { "tiny" } else { "footnotesize" };
+    let is_tight = least(&columns, 1.0) > line;
+    let gap = if is_tight { "\\setlength{\\tabcolsep}{3pt}\n" } else { "" };
+    latex.push_str(&format!("{{\\{size}\n{gap}\\begin{{longtable}}{{{layout}}}\n"));
     if table.number.is_some() {
         let label = table.id.as_ref().map(|id| format!("\\label{{{id}}}")).unwrap_or_default();
         latex.push_str(&format!("\\caption{{{}}}{label}\\\\\n", inlines(&table.caption)));
@@ -299,7 +319,8 @@ fn table(table: &Table) -> String {
 
 /// Lays out columns that do not all fit: short ones keep their width, and the long ones share what
 /// is free beyond their longest words, by the square roots of their widths.
-fn shared_layout(columns: &[Column], line: f64, free: f64) -> String {
+fn shared_layout(columns: &[Column], line: f64) -> String {
+    let free = (line - least(columns, 1.0)).max(0.0);
     let long = columns.iter().filter(|column| column.width > SHORT);
     let weights: f64 = long.map(|column| (column.width as f64).sqrt()).sum();
     let column = |Column { letter, width, least }: &Column| {

@@ -266,14 +266,12 @@ pub fn number_in_formula(tex: &str) -> Option<String> {
         let fraction =
             [r"\frac{", r"\dfrac{", r"\tfrac{"].iter().find_map(|of| side.strip_prefix(of));
         let bare = fraction.unwrap_or(side);
-        let numerator = bare
-            .split_once(if fraction.is_some() { '}' } else { '/' })
-            .map(|(numerator, _)| numerator);
+        let end = if fraction.is_some() { '}' } else { '/' };
+        let numerator = bare.split_once(end).map(|(numerator, _)| numerator);
         let long = |text: &str| text.contains('.') || digits(text) > 1;
         // One letter behind a number is a unit, or a factor of a decimal.
-        let letter = tex::signs(bare)
-            .last()
-            .filter(|sign| tex::spell(sign).chars().all(char::is_alphabetic));
+        let is_letter = |sign: &&str| tex::spell(sign).chars().all(char::is_alphabetic);
+        let letter = tex::signs(bare).last().filter(is_letter);
         let factor =
             letter.filter(|letter| bare.contains('.') || unit(letter).is_some() && long(bare));
         let rest = factor.map_or(bare, |letter| &bare[..bare.len() - letter.len()]);
@@ -293,10 +291,8 @@ mod tests {
         let declared =
             "[[literal]]\nwhy = \"a collision has them\"\nphrases = [\"two masses\", \"at 100 %\"]";
         let declared = Declared::read(declared).unwrap();
-        find_numbers(text, 0..text.len(), &declared)
-            .into_iter()
-            .map(|(_, numeral)| numeral)
-            .collect()
+        let numbers = find_numbers(text, 0..text.len(), &declared);
+        numbers.into_iter().map(|(_, numeral)| numeral).collect()
     }
 
     #[test]

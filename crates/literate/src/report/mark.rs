@@ -6,6 +6,7 @@
 
 use crate::print::Style;
 use crate::value::Digits;
+use std::ops::Range;
 
 pub(super) const OPEN: char = '\u{e000}';
 const NEXT: char = '\u{e001}';
@@ -55,10 +56,14 @@ pub fn pieces(text: &str) -> Vec<Piece<'_>> {
     pieces
 }
 
-pub fn ids(text: &str) -> impl Iterator<Item = String> + '_ {
-    pieces(text).into_iter().filter_map(|piece| match piece {
-        Piece::Value { id, .. } => Some(id),
-        Piece::Text(_) => None,
+/// Returns the ids of the values in a text, with their filters and where their marks stand.
+pub fn values(text: &str) -> impl Iterator<Item = (String, &str, Range<usize>)> {
+    text.match_indices(OPEN).filter_map(|(start, _)| {
+        let end = start + text[start..].find(CLOSE)? + CLOSE.len_utf8();
+        match pieces(&text[start..end]).pop()? {
+            Piece::Value { id, filters } => Some((id, filters, start..end)),
+            Piece::Text(_) => None,
+        }
     })
 }
 

@@ -97,7 +97,8 @@ fn block(block: &Block) -> String {
     }
 }
 
-const CELL: Within = Within { link: false, cell: true };
+const CELL: Within = Within { link: false, cell: true, plain: false };
+const PLAIN: Within = Within { link: true, cell: false, plain: true };
 
 fn table(table: &Table) -> String {
     let row = |cells: &[Vec<Inline>]| {
@@ -124,7 +125,7 @@ fn anchor(id: &str) -> String {
 fn alternative(text: &str) -> String {
     let (line, mut escaped) =
         (text.split_whitespace().collect::<Vec<_>>().join(" "), "[".to_string());
-    escape::push_words(&line, Within { link: true, cell: false }, &mut escaped);
+    escape::push_words(&line, PLAIN, &mut escaped);
     // One star alone is a star.
     let escaped =
         if line.matches('*').count() == 1 { escaped.replace(r"\*", "*") } else { escaped };
@@ -143,11 +144,7 @@ pub fn escape_text(text: &str) -> String {
             // The prose into which it goes has more signs.
             words => {
                 let written = markdown.len();
-                escape::push_words(
-                    &document::to_plain_text(&[words]),
-                    Within { link: true, cell: false },
-                    &mut markdown,
-                );
+                escape::push_words(&document::to_plain_text(&[words]), PLAIN, &mut markdown);
                 for c in markdown.split_off(written).chars() {
                     markdown.extend("{}^@".contains(c).then_some('\\'));
                     markdown.push(c);

@@ -36,9 +36,10 @@ pub fn escape(text: &str) -> String {
     escaped
 }
 
-/// Returns the characters that pdflatex does not know; T1 fonts have letters with accents.
+/// Returns the characters that pdflatex does not know; T1 fonts have most letters with accents.
 pub fn unknown(tex: &str) -> BTreeSet<char> {
-    tex.chars().filter(|c| !c.is_ascii() && !('\u{c0}'..='\u{17f}').contains(c)).collect()
+    let is_known = |c| ('\u{c0}'..='\u{17f}').contains(&c) && !"ĦħĸĿŀŉŦŧſ".contains(c);
+    tex.chars().filter(|c| !c.is_ascii() && !is_known(*c)).collect()
 }
 
 /// Writes the characters of a formula beyond ASCII as macros, so that they may stand in `\text{…}`
@@ -96,7 +97,7 @@ const MATHS: &str = r"
     ⇒ \Rightarrow  ∈ \in  ∑ \sum  ∏ \prod  ∫ \int  ∂ \partial  ⌈ \lceil  ⌉ \rceil  ⌊ \lfloor
     ⌋ \rfloor  ′ '  ✓ \checkmark  ✗ \times  ⁰ ^0  ¹ ^1  ² ^2  ³ ^3  ⁴ ^4  ⁵ ^5  ⁶ ^6  ⁷ ^7  ⁸ ^8
     ⁹ ^9  ⁻ ^-  ₀ _0  ₁ _1  ₂ _2  ₃ _3  ₄ _4  ₅ _5  ₆ _6  ₇ _7  ₈ _8  ₉ _9  ₊ _+  ₋ _-  ½ \frac12
-    ¼ \frac14";
+    ¼ \frac14  ħ \hbar  ℏ \hbar";
 
 /// Characters in formulas, which spells formulas too.
 static TEX: LazyLock<BTreeMap<&str, &str>> = LazyLock::new(|| pairs(MATHS));

@@ -17,13 +17,9 @@ pub fn names(template: &str) -> Names {
             "for" => rest.split_once(" in "),
             _ => None,
         };
-        let given = given.filter(|(_, expression)| is_typed(expression, &typed));
-        typed.extend(
-            given
-                .into_iter()
-                .flat_map(|(names, _)| names.split(','))
-                .map(|name| name.trim().into()),
-        );
+        if let Some((names, _)) = given.filter(|(_, expression)| is_typed(expression, &typed)) {
+            typed.extend(names.split(',').map(|name| name.trim().into()));
+        }
     }
     typed
 }

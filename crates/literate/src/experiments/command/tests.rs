@@ -180,11 +180,16 @@ fn what_goes_wrong_is_shown() {
     for (script, message) in [
         ("echo a >&2; echo b >&2; exit 3", "exit status: 3; it said:\na\nb"),
         ("echo Hello; echo '{}]'", "it printed:\nHello\n{}]"),
-        (&table("\"rows\": [[1, 2]]"), "a: row 1 has 2 cells for 1 names"),
+        (&table("\"rows\": [[1, 2]]"), "a: row 1 has 2 of 1 cells; null is none;"),
+        (&table("\"rows\": [[], [1]]"), "a: row 1 has 0 of 1 cells; null is none;"),
+        (&table("\"rows\": [[1e400]]"), "read: 1e400 is beyond double precision (print it in"),
         (&table("\"rows\": [[[]]]"), "row 1 has more than a number"),
         (&table("\"rows\": [[1], [2]]"), "printed a: two rows have the keys []; add a key"),
         (&table("\"rows\": [], \"units\": {\"B\": \"m\"}"), "units: there is no column B;"),
-        (&format!("echo '{{\"a\": {{{fields}}}, \"a\": {{{fields}}}}}'"), "two tables a"),
+        (
+            &format!("echo '{{\"a\": {{{fields}}}, \"a\": {{{fields}}}}}'"),
+            "read: two tables have the name a (rename",
+        ),
         ("", "did not write a.png"),
     ] {
         let command = Command { writes: &["a.png"], ..Command::new("toy", "sh toy.sh") };

@@ -2,11 +2,12 @@
 
 use super::super::document::address;
 
-/// What words stand in: the text of a link, a cell of a table.
+/// What words stand in: the text of a link, a cell of a table, or what may have no tags.
 #[derive(Clone, Copy, Default)]
 pub struct Within {
     pub link: bool,
     pub cell: bool,
+    pub plain: bool,
 }
 
 /// Returns a fence of at least this many grave accents, longer than any in the code.
@@ -48,6 +49,12 @@ pub fn push_words(words: &str, within: Within, markdown: &mut String) {
     let chars: Vec<char> = words.chars().collect();
     let marker = if starts_line { marker(&chars) } else { None };
     let is_word = |c: Option<&char>| c.is_some_and(|c| c.is_alphanumeric());
+    // GitHub makes a picture of a name between colons, with backslashes too: `1:100:1000`.
+    let is_picture = |i: usize| {
+        let is_name = |c: &&char| c.is_alphanumeric() || "_+-".contains(**c);
+        let length = chars[i + 1..].iter().take_while(is_name).count();
+        !within.plain && length > 0 && chars.get(i + 1 + length) == Some(&':')
+    };
     let is_read = |i: usize| {
         let (before, after) = (i.checked_sub(1).map(|i| &chars[i]), &chars[i + 1..]);
         match chars[i] {
@@ -57,6 +64,7 @@ pub fn push_words(words: &str, within: Within, markdown: &mut String) {
             '[' | ']' if within.link => true,
             '_' => !(is_word(before) && is_word(after.first())),
             '(' => before == Some(&']'),
+            ':' if is_picture(i) => true,
             _ => marker == Some(i),
         }
     };
@@ -70,6 +78,7 @@ pub fn push_words(words: &str, within: Within, markdown: &mut String) {
     for (i, &c) in chars.iter().enumerate() {
         markdown.extend((is_read(i) || ":.".contains(c) && is_address(i)).then_some('\\'));
         markdown.push(c);
+        markdown.push_str(if c == ':' && is_picture(i) { "<wbr>" } else { "" });
     }
 }
 

@@ -100,17 +100,10 @@ impl Reader<'_> {
     /// Notes what beside a value changes its unit or sign, and digits that drop its error.
     fn check_values(&mut self, range: &Range<usize>, is_maths: bool) {
         let (filled, values) = (self.filled, self.values);
-        let (source, mut offset) = (&filled.text, range.start);
-        for piece in pieces(&source[range.clone()]) {
-            let (id, filters) = match piece {
-                Piece::Text(text) => {
-                    offset += text.len();
-                    continue;
-                }
-                Piece::Value { id, filters } => (id, filters),
-            };
-            let (end, style) =
-                (offset + mark::framed(&id, filters).len(), mark::parse_filters(filters));
+        let source = &filled.text;
+        for (id, filters, at) in mark::values(&source[range.clone()]) {
+            let (offset, end) = (range.start + at.start, range.start + at.end);
+            let style = mark::parse_filters(filters);
             if let Some(value) = values.get(&id) {
                 let has_error =
                     |digits: &Digits| matches!(digits, Digits::Error(_)) && style.digits.is_some();
@@ -124,7 +117,6 @@ impl Reader<'_> {
                     self.note_error(offset, Error::Template(problem));
                 }
             }
-            offset = end;
         }
     }
 
@@ -143,8 +135,14 @@ impl Reader<'_> {
             return Err(fault("a link has no title, which print cannot show; write it in words"));
         }
         let hides = matches!(tag, Tag::Emphasis | Tag::Link { .. });
-        self.depth_without_formulas += usize::from(hides);
+        (self.spans, self.depth_without_formulas) =
+            (self.spans + 1, self.depth_without_formulas + usize::from(hides));
+        // Readers and writers of nested markup are recursive.
+        if self.spans > 40 {
+            return Err(fault("emphasis is nested too deeply"));
+        }
         let words = self.inlines_in_line()?;
+        self.spans -= 1;
         self.depth_without_formulas -= usize::from(hides);
         self.events.next();
         Ok(match tag {
@@ -163,6 +161,10 @@ impl Reader<'_> {
     /// Reads what stands between brackets: `@fig:2; @fig:3` or `!claim:rise`.
     fn read_reference(&mut self, reference: &str, offset: usize) -> Result<Inline, Error> {
         if let Some(id) = reference.strip_prefix('!') {
+            if !id.contains(':') {
+                let problem = "is a box of GitHub, which no other format shows; write it in words";
+                return Err(fault(format!("[!{id}] {problem}, or a place as [!claim:id]")));
+            }
             self.add_id("claim", id, offset)?;
             return Ok(Inline::Anchor { id: id.to_string(), number: String::new() });
         }
@@ -324,8 +326,8 @@ fn forbids_formula(c: char) -> bool {
 const UNCLOSED_MARKUP: &str = "unclosed markup; complete it, or write a backslash before a sign that is \
      meant literally";
 
-const GROUP_AS_VALUE: &str = "a group or a row is named where a value is meant; name the value whole, as \
-     table[\"row\"].column";
+const GROUP_AS_VALUE: &str = "a group, a row or a key is named where a value is meant; name the value whole, as \
+     table[\"row\"].column, also one of the key";
 
 const UNCLOSED_FORMULA: &str = "an unclosed formula: Markdown ends it at an empty line, and at a line that begins \
      with +, -, *, #, >, = or 1.; move the sign to the end of the line before";

@@ -11,6 +11,7 @@ use super::document::{Block, Inline, Table, to_plain_text};
 use super::error::{Error, Thing};
 use super::filled::{Filled, Places};
 use super::labels::check_kind;
+use super::latex;
 use super::lint::Declared;
 use super::values::Registry;
 use crate::source::Sources;
@@ -42,18 +43,6 @@ pub fn parse<'a>(
     };
     let parser = Parser::new_with_broken_link_callback(&filled.text, options, Some(callback));
     let events: Vec<(Event<'_>, Range<usize>)> = parser.into_offset_iter().collect();
-    // Readers and writers of nested markup are recursive.
-    let mut depth = 0;
-    let deep = events.iter().find(|(event, _)| {
-        depth += i32::from(matches!(event, Event::Start(_)));
-        depth -= i32::from(matches!(event, Event::End(_)));
-        depth > 40
-    });
-    if let Some((_, range)) = deep {
-        let error =
-            fault("lists or emphasis are nested too deeply").with_place(filled.place(range.start));
-        return Parsed { blocks: Vec::new(), places: Places::new(filled), errors: vec![error] };
-    }
     let mut reader = Reader {
         events: events.into_iter().peekable(),
         filled,
@@ -63,13 +52,19 @@ pub fn parse<'a>(
         id_at: 0..0,
         end_of_cut_formula: 0,
         depth: 0,
+        lists: 0,
+        spans: 0,
         depth_without_formulas: 0,
         has_title: false,
         is_in_cell: false,
-        places: Places::new(filled),
+        places: Places::new(filled, values),
         errors: Vec::new(),
     };
     let blocks = reader.blocks().unwrap_or_default();
+    let is_hidden = |(_, c): &(usize, char)| c.is_control() && !['\n', '\t'].contains(c);
+    if let Some((offset, c)) = filled.text.char_indices().find(is_hidden) {
+        reader.note_error(offset, Error::NoLatex(c));
+    }
     Parsed { blocks, places: reader.places, errors: reader.errors }
 }
 
@@ -87,9 +82,12 @@ struct Reader<'a> {
     id_at: Range<usize>,
     /// Where a formula ends that Markdown has cut; only its first error is reported.
     end_of_cut_formula: usize,
-    /// Number of lists and quotations around what is being read.
+    /// Number of lists and quotations around what is being read, and of lists alone.
     depth: usize,
-    /// Emphasis and links around it, in which GitHub renders no formula.
+    lists: usize,
+    /// Number of emphasis and links around it.
+    spans: usize,
+    /// Those of them in which GitHub renders no formula.
     depth_without_formulas: usize,
     has_title: bool,
     /// Whether it is a cell of a table, where a dash stands for no number.
@@ -135,18 +133,26 @@ impl<'a> Reader<'a> {
                 Err(error) if within => return Err(error),
                 Err(error) => {
                     self.errors.push(error);
-                    (self.depth, self.depth_without_formulas) = (0, 0);
-                    while self.events.next_if(|(_, range)| range.start < end).is_some() {}
+                    (self.depth, self.lists, self.spans, self.depth_without_formulas) =
+                        (0, 0, 0, 0);
+                    // Cells that Markdown adds to a row are empty and begin at its end.
+                    let is_inside = |range: &Range<usize>| range.start < end || range.end <= end;
+                    while self.events.next_if(|(_, range)| is_inside(range)).is_some() {}
                 }
             }
         }
         Ok(blocks)
     }
 
-    fn inner(&mut self) -> Result<Vec<Block>, Error> {
-        self.depth += 1;
+    fn inner(&mut self, is_list: bool) -> Result<Vec<Block>, Error> {
+        let outer = (self.depth, self.lists);
+        (self.depth, self.lists) = (self.depth + 1, self.lists + usize::from(is_list));
+        if self.lists > 4 || self.depth > 6 {
+            let problem = "lists stand at most four deep in LaTeX, and with quotations six deep";
+            return Err(fault(problem));
+        }
         let blocks = self.blocks()?;
-        self.depth -= 1;
+        (self.depth, self.lists) = outer;
         Ok(blocks)
     }
 
@@ -187,24 +193,14 @@ impl<'a> Reader<'a> {
                 let number = (!bare).then(String::new);
                 Block::Heading { level, number, id, text }
             }
-            Tag::BlockQuote(_) => {
-                let quote = Block::Quote(self.inner()?);
-                if deepest(std::slice::from_ref(&quote), false) > 6 {
-                    return Err(fault("quotations stand at most six deep, as in LaTeX"));
-                }
-                quote
-            }
+            Tag::BlockQuote(_) => Block::Quote(self.inner(false)?),
             Tag::List(start) => {
                 let mut items = Vec::new();
                 while self.begins(|tag| *tag == Tag::Item).is_some() {
-                    items.push(self.inner()?);
+                    items.push(self.inner(true)?);
                     self.events.next();
                 }
-                let list = Block::List { start, items };
-                if deepest(std::slice::from_ref(&list), true) > 4 {
-                    return Err(fault("lists stand at most four deep, as in LaTeX"));
-                }
-                list
+                Block::List { start, items }
             }
             Tag::CodeBlock(kind) => self.code(kind, &range)?,
             Tag::Table(columns) => self.table(columns)?,
@@ -326,12 +322,10 @@ impl<'a> Reader<'a> {
         let mut rows = Vec::new();
         let is_row = |tag: &Tag<'_>| matches!(tag, Tag::TableHead | Tag::TableRow);
         while let Some(range) = self.begins(is_row) {
-            // Markdown silently cuts and fills rows.
             let (count, expected) = (cells_of(self.source(&range)), columns.len());
             if count != expected {
-                let problem = format!(
-                    "a row has {count} cells in a table of {expected} columns; write a bar within a cell as \\|"
-                );
+                let remedy = "write all of them, also empty ones, and a bar within one as \\|";
+                let problem = format!("a row has {count} of {expected} cells; {remedy}");
                 return Err(fault(problem).with_place(self.filled.place(range.start)));
             }
             let mut cells = Vec::new();
@@ -345,25 +339,17 @@ impl<'a> Reader<'a> {
             rows.push(cells);
         }
         let head = if rows.is_empty() { Vec::new() } else { rows.remove(0) };
-        Ok(Block::Table(Table { columns, head, rows, ..Table::default() }))
+        let table = Table { columns, head, rows, ..Table::default() };
+        if latex::line_of(&table).is_none() {
+            let problem = "columns do not fit on a page of LaTeX, on its side and in small letters";
+            return Err(fault(format!("its {} {problem}; leave some out", table.columns.len())));
+        }
+        Ok(Block::Table(table))
     }
 }
 
 const UNSUPPORTED_MARKUP: &str = "this markup is not supported by every format";
 const FIGURE_NOT_ALONE: &str = "a figure must stand alone in its paragraph";
-/// Returns how deep lists, or else quotations, stand in one another.
-fn deepest(blocks: &[Block], of_lists: bool) -> usize {
-    let depth = |block: &Block| match block {
-        Block::List { items, .. } => {
-            let inner = items.iter().map(|item| deepest(item, of_lists)).max();
-            usize::from(of_lists) + inner.unwrap_or_default()
-        }
-        Block::Quote(blocks) => usize::from(!of_lists) + deepest(blocks, of_lists),
-        _ => 0,
-    };
-    blocks.iter().map(depth).max().unwrap_or_default()
-}
-
 const FENCE: &str = "a block of code must stand between two lines ```";
 
 fn cells_of(row: &str) -> usize {

@@ -10,9 +10,11 @@ fn faults_in_prose_are_reported_with_their_places() {
     let mut wrong = Vec::new();
     let deep = [("DEEP{", r"\sqrt{"), ("DEEP}", "}"), ("HATS", r"\hat "), ("QUOTES", "> ")];
     let deep = deep.into_iter().chain([("IN1IN", "("), ("ELIFS", "<% elif false %>a")]);
+    let stars = ["**a ", " a**"].map(|sign| sign.repeat(201)).join("x");
     let deep = |line: &str| {
-        deep.clone()
-            .fold(line.to_string(), |line, (name, sign)| line.replace(name, &sign.repeat(201)))
+        deep.clone().fold(line.replace("STARS", &stars), |line, (name, sign)| {
+            line.replace(name, &sign.repeat(201))
+        })
     };
     for line in BROKEN.lines().map(deep) {
         let parts: Vec<String> = line.split(" => ").map(unmarked).collect();
@@ -53,6 +55,8 @@ fn good_prose_passes() {
     let report = Given { table: Some(none), ..given(&prose) }.made().unwrap();
     let markdown = file(&report, "report.md");
     assert!(markdown.contains("nothing, 12") && markdown.contains("| – |"), "{markdown}");
-    let lists = assembled(&format!("{PROSE}\n\n1. a\n\n1) b\n")).unwrap();
-    assert!(file(&lists, "report.md").contains("1. a\n\n<!-- -->\n\n1. b\n"));
+    let lists = assembled(&format!("{PROSE}\n\n1. a\n\n   3. c\n\n1) b\n")).unwrap();
+    assert!(file(&lists, "report.md").contains("   3. c\n\n<!-- -->\n\n1. b\n"));
+    let third = "\\begin{enumerate}\n\\setcounter{\\csname @enumctr\\endcsname}{2}\n\\item c";
+    assert!(file(&lists, "report.tex").contains(third));
 }

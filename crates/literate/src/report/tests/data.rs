@@ -8,7 +8,7 @@ use std::process::{Command, Stdio};
 const PIECES: &str = r##"a b Z é σ 0.5 7 · ␣ ␣ ␣ ␣␣ ␣␣␣␣ * ** _ __ ` `` ``` $ $$ | | \ \| \\ - -- --- -␣ +␣ 1.␣ 12) # ##
     #␣ > = === [ ] ( ) [␣] [x] ](x) [a]:␣b ! ![ [!NOTE] [^1] < <b> </b> <!-- & &amp; &#35; ~ ~~ ~~~ @a @ {
     } {#a} ^ % ␣% " ' '' ,, : :- :-: :: ; / « » − – → https://x.org/a_b*c www.x.org ^a$|^b$ $HOME/$USER US$
-    C:\new{x} null ⏎ a␣b a␣b a␣b"##;
+    :x: 1:100:1000 C:\new{x} null ⏎ a␣b a␣b a␣b"##;
 
 /// Blocks around words `W`, and what readers see of each.
 const BLOCKS: &str = r"
@@ -146,6 +146,9 @@ fn words_of_data_are_data() {
     assert!(
         !["^a$|^b$", "$HOME/$USER", "$5 and $6", "US$"].into_iter().any(document::has_formulas)
     );
+    let prose = "see `«toy.words[keys.toy.words.rows[0]].word»`";
+    let error = with_words(&["a 漢".into()], prose).unwrap_err().to_string();
+    assert!(error.starts_with("report.md:14:6: the character '漢'"), "{error}");
     for words in ["a\u{7}b", "\0", "a\u{e000}b"] {
         let error = with_words(&[words.into()], "").unwrap_err().to_string();
         assert!(error.contains("which no format can show"), "{error}");

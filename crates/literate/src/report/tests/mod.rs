@@ -15,13 +15,14 @@ use crate::table::{DataFile, Table, Tables};
 use impact_numerics::estimates::with_error;
 use std::sync::Arc;
 
-const BIB: &str = "@article{rice1945, author={Rice, S. O.}, title={Noise}, journal={B}, year=1945}";
+const BIB: &str = "@article{rice1945, author={Rice, S. O.}, title={Noise}, journal={B}, year=1945}
+    @book{timeless, author={A}, title={T}} @book{han, author={漢}, title={T}, year=1}";
 
 const SAMPLE: &str = include_str!("sample.md");
 
 /// Text in one line: `⏎` ends a line in it, and `·` is a blank that does not break.
 fn unmarked(line: &str) -> String {
-    line.replace('⏎', "\n").replace('·', "\u{a0}")
+    line.replace('⏎', "\n").replace('·', "\u{a0}").replace('␇', "\u{7}")
 }
 
 /// Asserts that the files of a report have these parts, one a line, each behind its file.
@@ -100,6 +101,7 @@ impl Given {
             edition: &self.edition,
             project: &Project::new(toy()),
             experiments: &[],
+            warn: &|_| (),
         })
     }
 }
@@ -188,12 +190,36 @@ fn numerals_that_were_typed_outside_the_prose_are_refused() {
         let mut given = with_digit();
         given.edition.equations[0].digits = digits;
         let error = given.made().err().map(|error| error.to_string()).unwrap_or_default();
-        assert_eq!(
-            error.contains("equation (18) has the digits 2, in the list 3"),
-            fails,
-            "{error}"
-        );
+        let fault = "equation (18) has the digits 2, in the list 3";
+        assert_eq!(error.contains(fault), fails, "{error}");
     }
+}
+
+#[test]
+fn a_table_is_turned_and_made_small_until_it_fits_or_refused() {
+    for (columns, expected) in [
+        (5, "\n\n{\\footnotesize\n\\begin{longtable}{lllll}"),
+        (14, "\\begin{landscape}\n{\\tiny\n\\setlength{\\tabcolsep}{3pt}\n"),
+        (16, "report.md:14:1: its 16 columns do not fit on a page"),
+    ] {
+        let rows = ["| h ", "|--", "| elevenwords "].map(|cell| cell.repeat(columns) + "|\n");
+        let report = assembled(&format!("{PROSE}\n\n{}", rows.concat()));
+        let tex = report.map_or_else(|error| error.to_string(), |files| file(&files, "report.tex"));
+        assert!(tex.contains(expected), "{columns}: {tex}");
+    }
+}
+
+#[test]
+fn a_wrong_entry_stops_only_those_who_cite_it() {
+    let error = assembled(&format!("{PROSE}\n\nBy [@timeless; @han].")).unwrap_err().to_string();
+    let faults = ["2:5: timeless lacks its year", "2:44: han has the character '漢', which"];
+    for (line, fault) in error.split('\n').zip(faults) {
+        assert!(line.starts_with(&format!("references.bib:{fault}")), "{error}");
+    }
+    let library = bibliography::Library::read("references.bib", BIB).unwrap();
+    let warnings: Vec<String> = library.warnings().collect();
+    assert!(warnings[1].starts_with("references.bib:2:5: timeless, which nobody cites, lacks"));
+    assert_eq!([error.lines().count(), warnings.len()], [2; 2], "{error}");
 }
 
 #[test]
