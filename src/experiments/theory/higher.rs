@@ -11,7 +11,6 @@ use impact_circuits::distribution::{Law, SampleSpace};
 use impact_circuits::higher_order::{CLASSES, SHARED, doubled_as_printed, multiplicity};
 use impact_circuits::jump;
 use impact_numerics::double_double::DoubleDouble;
-use rayon::prelude::*;
 
 /// Returns P(X = k) of five classes, k = 1..=N.
 pub fn five(p: f64) -> Vec<f64> {
@@ -118,13 +117,20 @@ fn simple_by_different(p: f64) -> f64 {
 /// Returns the largest step of k* in the distribution of [`by_different`], on a grid of p in steps
 /// of 1/100 000 up to 0.04.
 fn largest_step() -> u64 {
-    let more = multiplicities();
+    // Each k has the same p^k in all its weights.
+    let logs: Vec<f64> =
+        by_different(1.0, &multiplicities()).into_iter().map(pxfm::f_log).collect();
     let top = |i: u32| {
-        let simple = law(Simple, f64::from(i) / 1e5);
-        let weights = simple.all_weights().zip(&more).map(|(simple, more)| simple.to_f64() * more);
-        (1..).zip(weights).fold((1, 0.0), |most, one| if one.1 > most.1 { one } else { most }).0
+        let (log_p, mut most) = (pxfm::f_log(f64::from(i) / 1e5), (1, f64::NEG_INFINITY));
+        for (k, log) in (1_u32..).zip(&logs) {
+            let weight = log + f64::from(k) * log_p;
+            if weight > most.1 {
+                most = (u64::from(k), weight);
+            }
+        }
+        most.0
     };
-    let ks: Vec<u64> = (0..=4000).into_par_iter().map(top).collect();
+    let ks: Vec<u64> = (0..=4000).map(top).collect();
     ks.windows(2).map(|w| w[1].abs_diff(w[0])).max().unwrap_or(0)
 }
 

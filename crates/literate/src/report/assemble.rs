@@ -68,7 +68,8 @@ pub fn assemble(input: &Input<'_>) -> Result<Files, Error> {
     }
     all_in_order(errors)?;
     let Input { edition, project, experiments, .. } = *input;
-    let cards = Cards { values: &values, ledger: &ledger, edition, project, experiments };
+    let (values, ledger, shared) = (&values, &ledger, Default::default());
+    let cards = Cards { values, ledger, edition, project, experiments, shared };
     files.extend(html::shared::files(&opened, &cards, input, &labels)?);
     folder::add_lists(&mut files);
     Ok(files)

@@ -17,6 +17,9 @@ use std::sync::LazyLock;
 pub struct Declared {
     #[serde(default)]
     literal: Vec<Group>,
+    /// All phrases in lower case, each ended by `\0`.
+    #[serde(skip)]
+    phrases: String,
 }
 
 #[derive(Clone, Debug, Deserialize)]
@@ -31,11 +34,16 @@ impl Declared {
         let syntax = |error| Error::Template(format!("literals.toml:{}", toml_fault(text, &error)));
         let declared: Declared = toml::from_str(text).map_err(syntax)?;
         match declared.literal.iter().find(|group| group.why.trim().is_empty()) {
-            None => Ok(declared),
+            None => Ok(Declared { phrases: declared.in_lowercase(), ..declared }),
             Some(Group { phrases, .. }) => {
                 Err(Error::Template(format!("literals.toml: {phrases:?} have no reason in `why`")))
             }
         }
+    }
+
+    fn in_lowercase(&self) -> String {
+        let phrases = self.literal.iter().flat_map(|group| &group.phrases);
+        phrases.map(|phrase| phrase.to_ascii_lowercase() + "\0").collect()
     }
 
     /// Returns whether the word at this offset stands in a declared phrase, perhaps in two lines.
@@ -46,9 +54,10 @@ impl Declared {
             words.is_some_and(|words| words.replace('\n', " ").eq_ignore_ascii_case(phrase))
         };
         let word = word.to_ascii_lowercase();
-        self.literal.iter().flat_map(|group| &group.phrases).any(|phrase| {
-            let phrase = phrase.to_ascii_lowercase();
-            phrase.match_indices(&word).any(|(offset, _)| stands(&phrase, offset))
+        self.phrases.match_indices(&word).any(|(at, _)| {
+            let begin = self.phrases[..at].rfind('\0').map_or(0, |end| end + 1);
+            let phrase = self.phrases[begin..].split('\0').next().unwrap_or_default();
+            stands(phrase, at - begin)
         })
     }
 }
@@ -62,6 +71,13 @@ static LISTS: LazyLock<[BTreeSet<&str>; 3]> =
     LazyLock::new(|| [WORDS, BETWEEN, AROUND].map(|list| list.split_whitespace().collect()));
 
 fn is_number_word(word: &str) -> bool {
+    // Of most words two letters tell, much faster, that they are none.
+    let [first, second, ..] = word.as_bytes() else { return false };
+    match (first.to_ascii_lowercase(), second.to_ascii_lowercase()) {
+        (b't', b'e' | b'h' | b'i' | b'w') | (b'f' | b's' | b'e' | b'n' | b'm' | b'b', b'i') => (),
+        (b'f' | b'd', b'o') | (b's', b'e') | (b'e', b'l') | (b'h', b'u') => (),
+        _ => return false,
+    }
     let word = word.to_lowercase();
     let word = word.strip_suffix("fold").unwrap_or(&word);
     LISTS[0].contains(word)
@@ -116,6 +132,9 @@ fn literal_digit(sign: &str) -> Option<&str> {
 }
 
 pub fn without_backslashes(text: &str) -> String {
+    if !text.contains('\\') {
+        return text.into();
+    }
     tex::signs(text).map(|sign| literal_digit(sign).unwrap_or(sign)).collect()
 }
 
@@ -320,6 +339,7 @@ mod tests {
         let sentence = "k_12";
         assert_eq!(find_numbers(sentence, 2..4, &Declared::default()), [], "the part of a word");
         assert!(Declared::read("[[literal]]\nwhy = \" \"\nphrases = [\"two\"]").is_err());
+        assert_eq!(WORDS.split_whitespace().find(|word| !is_number_word(word)), None);
     }
 
     #[test]

@@ -33,7 +33,11 @@ impl DataFile {
     pub fn to_csv(&self) -> String {
         let mut csv = String::new();
         for line in std::iter::once(&self.header).chain(&self.rows) {
-            csv += &(line.iter().map(|cell| quoted(cell)).collect::<Vec<_>>().join(",") + "\n");
+            for (index, cell) in line.iter().enumerate() {
+                csv.push_str(if index > 0 { "," } else { "" });
+                csv.push_str(&quoted(cell));
+            }
+            csv.push('\n');
         }
         csv
     }
@@ -59,11 +63,12 @@ pub struct DataFile {
 }
 
 fn quoted(cell: &str) -> Cow<'_, str> {
-    if cell.bytes().any(|byte| b",\"\n".contains(&byte)) {
-        format!("\"{}\"", cell.replace('"', "\"\"")).into()
-    } else {
-        cell.into()
+    for byte in cell.as_bytes() {
+        if matches!(byte, b',' | b'"' | b'\n') {
+            return format!("\"{}\"", cell.replace('"', "\"\"")).into();
+        }
     }
+    cell.into()
 }
 
 /// Formats a number for files: the shortest decimal that reads back to the same double.
