@@ -91,8 +91,9 @@ fn fill(input: &Input<'_>) -> Result<(Registry, Filler, Vec<Filled>), Error> {
         filler.insert(name, rows);
     }
     let (mut filled, mut errors) = (Vec::new(), Vec::new());
-    for document in &input.edition.documents {
-        match filler.prose(document) {
+    let documents = input.edition.documents.par_iter().with_max_len(1);
+    for prose in documents.map(|document| filler.prose(document)).collect::<Vec<_>>() {
+        match prose {
             Ok(prose) => filled.push(prose),
             Err(error) => errors.push(error),
         }

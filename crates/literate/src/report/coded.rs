@@ -74,7 +74,10 @@ fn typed(path: &str, code: &str, wanted: &HashSet<&str>, meant: &HashSet<&str>) 
     let (mut typed, mut line) = (Vec::new(), 1);
     for piece in code.split('"').flat_map(|piece| piece.split('{')).flat_map(|it| it.split('}')) {
         let may_have_number = wants_words || piece.bytes().any(|byte| byte.is_ascii_digit());
-        if may_have_number && has_one_of(piece, wanted) && piece.contains(char::is_alphabetic) {
+        if may_have_number
+            && has_one_of(piece, wanted, wants_words)
+            && piece.contains(char::is_alphabetic)
+        {
             let text = piece.replace(r"\\", r"\");
             let numerals = lint::find_numbers(&text, 0..text.len(), &Declared::default());
             let numerals = numerals.into_iter().map(|(_, numeral)| numeral);
@@ -90,11 +93,12 @@ fn typed(path: &str, code: &str, wanted: &HashSet<&str>, meant: &HashSet<&str>) 
 }
 
 /// Returns whether a text has one of these words, or runs of digits within a word.
-fn has_one_of(text: &str, words: &HashSet<&str>) -> bool {
+fn has_one_of(text: &str, words: &HashSet<&str>, wants_words: bool) -> bool {
     text.split(|c: char| !c.is_alphanumeric()).any(|word| {
         let has_digit = word.bytes().any(|byte| byte.is_ascii_digit());
         let mut runs = word.split(|c: char| !c.is_ascii_digit());
-        words.contains(word) || has_digit && runs.any(|run| words.contains(run))
+        let may_be_one = wants_words || has_digit || !word.is_ascii();
+        may_be_one && words.contains(word) || has_digit && runs.any(|run| words.contains(run))
     })
 }
 
