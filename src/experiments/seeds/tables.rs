@@ -112,14 +112,8 @@ impl RunsAtSigma<'_> {
     /// Estimates the number of gaps of a run with an impact in some bins.
     fn hit(&self, from: usize, count: usize) -> Option<Estimate> {
         let mask = bits(from, count);
-        let hit = |(_, trace): &(usize, &Trace)| {
-            let mut hit = 0.0;
-            for bits in &trace.hits {
-                hit += if bits & mask == 0 { 0.0 } else { 1.0 };
-            }
-            hit
-        };
-        average(&self.runs.iter().map(hit).collect::<Vec<_>>())
+        let hit = |trace: &Trace| trace.hits.iter().filter(|bits| **bits & mask != 0).count();
+        average(&self.runs.iter().map(|(_, trace)| hit(trace) as f64).collect::<Vec<_>>())
     }
 }
 

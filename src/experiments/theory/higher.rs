@@ -121,17 +121,12 @@ fn largest_step() -> u64 {
     let logs: Vec<f64> =
         by_different(1.0, &multiplicities()).into_iter().map(pxfm::f_log).collect();
     let top = |i: u32| {
-        let (log_p, mut most) = (pxfm::f_log(f64::from(i) / 1e5), (1, f64::NEG_INFINITY));
-        for (k, log) in (1_u32..).zip(&logs) {
-            let weight = log + f64::from(k) * log_p;
-            if weight > most.1 {
-                most = (u64::from(k), weight);
-            }
-        }
-        most.0
+        let log_p = pxfm::f_log(f64::from(i) / 1e5);
+        let weights = (1_u32..).zip(&logs).map(|(k, log)| (k, log + f64::from(k) * log_p));
+        weights.fold((1, f64::NEG_INFINITY), |most, one| if one.1 > most.1 { one } else { most }).0
     };
-    let ks: Vec<u64> = (0..=4000).map(top).collect();
-    ks.windows(2).map(|w| w[1].abs_diff(w[0])).max().unwrap_or(0)
+    let ks: Vec<u32> = (0..=4000).map(top).collect();
+    ks.windows(2).map(|w| u64::from(w[1].abs_diff(w[0]))).max().unwrap_or(0)
 }
 
 /// Makes the table of single numbers of Sec. 9, some by `theory.curve` and `theory.relation`.

@@ -37,12 +37,9 @@ pub fn check(input: &Input<'_>, declared: &Declared) -> Vec<Error> {
     }
     let meant = numbered.iter().flat_map(|(.., numerals)| numerals).map(|(_, one)| one.as_str());
     let meant: HashSet<&str> = meant.collect();
-    let parts = meant.iter().map(|one| one.split(|c: char| !c.is_alphanumeric()));
-    let wanted: HashSet<&str> =
-        parts.filter_map(|mut parts| parts.find(|it| !it.is_empty())).collect();
     let files: Vec<(String, &str)> = code.chain(texts).collect();
     let files = files.par_iter().with_max_len(1);
-    let typed = files.flat_map_iter(|(path, text)| typed(path, text, &wanted, &meant));
+    let typed = files.flat_map_iter(|(path, text)| typed(path, text, &meant));
     let typed: Vec<Typed> = typed.collect();
     let mut by_numeral: HashMap<&str, Vec<&Typed>> = HashMap::new();
     for typed in &typed {
@@ -67,17 +64,14 @@ pub fn check(input: &Input<'_>, declared: &Declared) -> Vec<Error> {
 }
 
 /// Returns what stands between quotation marks and braces, in strings and elsewhere, with letters
-/// and one of the numbers that are meant, each of which begins with a wanted word or run of digits.
-fn typed(path: &str, code: &str, wanted: &HashSet<&str>, meant: &HashSet<&str>) -> Vec<Typed> {
+/// and one of the numbers that are meant.
+fn typed(path: &str, code: &str, meant: &HashSet<&str>) -> Vec<Typed> {
     let code = code.split("#[cfg(test)]\nmod ").next().unwrap_or_default();
-    let wants_words = wanted.iter().any(|word| word.starts_with(char::is_alphabetic));
+    let wants_words = meant.iter().any(|word| word.starts_with(char::is_alphabetic));
     let (mut typed, mut line) = (Vec::new(), 1);
     for piece in code.split('"').flat_map(|piece| piece.split('{')).flat_map(|it| it.split('}')) {
         let may_have_number = wants_words || piece.bytes().any(|byte| byte.is_ascii_digit());
-        if may_have_number
-            && has_one_of(piece, wanted, wants_words)
-            && piece.contains(char::is_alphabetic)
-        {
+        if may_have_number && piece.contains(char::is_alphabetic) {
             let text = piece.replace(r"\\", r"\");
             let numerals = lint::find_numbers(&text, 0..text.len(), &Declared::default());
             let numerals = numerals.into_iter().map(|(_, numeral)| numeral);
@@ -90,16 +84,6 @@ fn typed(path: &str, code: &str, wanted: &HashSet<&str>, meant: &HashSet<&str>) 
         line += piece.matches('\n').count();
     }
     typed
-}
-
-/// Returns whether a text has one of these words, or runs of digits within a word.
-fn has_one_of(text: &str, words: &HashSet<&str>, wants_words: bool) -> bool {
-    text.split(|c: char| !c.is_alphanumeric()).any(|word| {
-        let has_digit = word.bytes().any(|byte| byte.is_ascii_digit());
-        let mut runs = word.split(|c: char| !c.is_ascii_digit());
-        let may_be_one = wants_words || has_digit || !word.is_ascii();
-        may_be_one && words.contains(word) || has_digit && runs.any(|run| words.contains(run))
-    })
 }
 
 impl Typed {

@@ -60,10 +60,8 @@ impl Filler {
         }
         let set = tera.set_delimiters(delimiters);
         tera.autoescape_on(Vec::<&str>::new());
-        let parse = || {
-            let sources: Vec<(String, String)> = templates.iter().filter_map(source).collect();
-            set.and_then(|()| tera.add_raw_templates(sources))
-        };
+        let sources = templates.iter().filter_map(source);
+        let parse = || set.and_then(|()| tera.add_raw_templates(sources));
         let (names, added) = rayon::join(|| context_names(values, &tables), parse);
         let mut context = Context::new();
         for (group, names) in names.as_object().into_iter().flatten() {

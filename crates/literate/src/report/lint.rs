@@ -33,17 +33,14 @@ impl Declared {
     pub fn read(text: &str) -> Result<Self, Error> {
         let syntax = |error| Error::Template(format!("literals.toml:{}", toml_fault(text, &error)));
         let declared: Declared = toml::from_str(text).map_err(syntax)?;
+        let phrases = declared.literal.iter().flat_map(|group| &group.phrases);
+        let phrases = phrases.map(|phrase| phrase.to_ascii_lowercase() + "\0").collect();
         match declared.literal.iter().find(|group| group.why.trim().is_empty()) {
-            None => Ok(Declared { phrases: declared.in_lowercase(), ..declared }),
+            None => Ok(Declared { phrases, ..declared }),
             Some(Group { phrases, .. }) => {
                 Err(Error::Template(format!("literals.toml: {phrases:?} have no reason in `why`")))
             }
         }
-    }
-
-    fn in_lowercase(&self) -> String {
-        let phrases = self.literal.iter().flat_map(|group| &group.phrases);
-        phrases.map(|phrase| phrase.to_ascii_lowercase() + "\0").collect()
     }
 
     /// Returns whether the word at this offset stands in a declared phrase, perhaps in two lines.
@@ -93,7 +90,7 @@ pub fn find_numbers(text: &str, part: Range<usize>, declared: &Declared) -> Vec<
     }
     while let Some(c) = text[offset..part.end].chars().next() {
         let (start, rest) = (offset, &text[offset..part.end]);
-        let escaped = text[..start].strip_suffix('\\').filter(|_| c.is_numeric());
+        let escaped = if c.is_numeric() { text[..start].strip_suffix('\\') } else { None };
         let is_literal = escaped.is_some_and(|before| is_name(before, &text[start..]));
         offset += match c {
             _ if is_literal => rest.find(ends_literal).unwrap_or(rest.len()),
@@ -107,7 +104,7 @@ pub fn find_numbers(text: &str, part: Range<usize>, declared: &Declared) -> Vec<
             let signs = rest.split(|c: char| !(c.is_numeric() || ".,".contains(c))).next();
             numeral = signs.unwrap_or_default().trim_end_matches(['.', ',']);
             offset = offset.max(start + numeral.len());
-        } else if is_number_word(word) {
+        } else if is_word(c) && is_number_word(word) {
             // With a hyphen before a word that is not a number it names a kind: *two-sided*.
             let next = text[offset..].strip_prefix('-').unwrap_or_default();
             let next = next.split(|c: char| !c.is_alphabetic()).next().unwrap_or_default();

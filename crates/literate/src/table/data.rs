@@ -63,12 +63,11 @@ pub struct DataFile {
 }
 
 fn quoted(cell: &str) -> Cow<'_, str> {
-    for byte in cell.as_bytes() {
-        if matches!(byte, b',' | b'"' | b'\n') {
-            return format!("\"{}\"", cell.replace('"', "\"\"")).into();
-        }
+    if cell.as_bytes().iter().any(|byte| matches!(byte, b',' | b'"' | b'\n')) {
+        format!("\"{}\"", cell.replace('"', "\"\"")).into()
+    } else {
+        cell.into()
     }
-    cell.into()
 }
 
 /// Formats a number for files: the shortest decimal that reads back to the same double.
