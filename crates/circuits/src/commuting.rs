@@ -11,8 +11,7 @@ use std::collections::BTreeSet;
 /// Counts, by enumeration, simple circuits on `big_n` gaps, and classes that exchanges connect.
 pub fn simple_classes(big_n: usize) -> [usize; 2] {
     let circuits = Graph::of_chain(big_n - 1).circuits(big_n);
-    let mut unclassed: BTreeSet<Circuit> =
-        circuits.filter(|circuit| circuit.repeats().is_empty()).collect();
+    let mut unclassed: BTreeSet<Circuit> = circuits.filter(Circuit::is_simple).collect();
     let (simple, mut classes) = (unclassed.len(), 0);
     while let Some(circuit) = unclassed.pop_first() {
         classes += 1;

@@ -76,6 +76,11 @@ impl Circuit {
         visits
     }
 
+    /// Returns whether it visits no vertex twice.
+    pub fn is_simple(&self) -> bool {
+        (1..self.0.len()).all(|place| !self.0[..place].contains(&self.0[place]))
+    }
+
     /// Its class in Eq. (34): how many vertices are visited j + 1 times; empty if simple.
     pub fn repeats(&self) -> Vec<usize> {
         let visits = self.visits();
@@ -96,7 +101,7 @@ mod tests {
         assert_eq!(words, [vec![0], vec![0, 0, 1], vec![0, 1], vec![0, 1, 1], vec![1]]);
         let circuit = Circuit::new(vec![2, 0, 2, 1, 0, 2]);
         assert_eq!(circuit.word(), [0, 2, 1, 0, 2, 2]);
-        assert_eq!(circuit.repeats(), [1, 1]);
+        assert_eq!((circuit.repeats(), circuit.is_simple()), (vec![1, 1], false));
         assert_eq!(circuit.visits(), BTreeMap::from([(0, 2), (1, 1), (2, 3)]));
     }
 }

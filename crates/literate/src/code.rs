@@ -129,7 +129,8 @@ fn variables(program: &Path, files: &[PathBuf]) -> BTreeMap<String, String> {
     for (_, list) in lists {
         let list = input::read_text(&list).unwrap_or_default();
         let line = list.lines().next().unwrap_or_default();
-        let Some(root) = paths(line).into_iter().next() else { continue };
+        let first = line.split_inclusive(".rs").next().unwrap_or_default();
+        let Some(root) = paths(first).into_iter().next() else { continue };
         if files.iter().any(|file| file.ends_with(&root)) {
             packages.insert(root, list);
         }

@@ -25,7 +25,8 @@ pub struct Project {
 }
 
 pub(crate) fn is_in(path: &str, place: &str) -> bool {
-    let place = place.trim_start_matches("./").trim_end_matches('/');
+    let place = place.strip_prefix("./").unwrap_or(place);
+    let place = place.strip_suffix('/').unwrap_or(place);
     path.strip_prefix(place).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
 }
 

@@ -37,10 +37,11 @@ pub(super) struct Fit {
 impl Law {
     /// Fits amplitude and limit for one exponent to points: ln u, distance and weight.
     fn fit_amplitude(self, exponent: f64, points: &[[f64; 3]]) -> Fit {
+        let powers = points.iter().map(|[log, ..]| pxfm::f_exp(-exponent * log));
+        let powers: Vec<f64> = powers.collect();
         let sum = |factor: &dyn Fn(f64, f64) -> f64| {
-            let term =
-                |[log, y, weight]: &[f64; 3]| weight * factor(pxfm::f_exp(-exponent * log), *y);
-            points.iter().map(term).sum::<f64>()
+            let terms = powers.iter().zip(points);
+            terms.map(|(x, [_, y, weight])| weight * factor(*x, *y)).sum::<f64>()
         };
         let [one, x, y] = [sum(&|_, _| 1.0), sum(&|x, _| x), sum(&|_, y| y)];
         let [xx, xy] = [sum(&|x, _| x * x), sum(&|x, y| x * y)];
@@ -54,10 +55,11 @@ impl Law {
     /// Fits the exponent too, from about 1/20 to 20, by ever finer steps of its logarithm.
     pub fn fit(self, points: &[[f64; 3]]) -> Option<Fit> {
         let fit = |log: f64| self.fit_amplitude(pxfm::f_exp(log), points);
+        let with_misfit = |log: f64| (log, fit(log).misfit);
         let (mut centre, mut half): (f64, f64) = (0.0, 3.0);
         for _ in 0..9 {
             let places = (-20..=20).map(|step| centre + half * f64::from(step) / 20.0);
-            centre = places.min_by(|a, b| fit(*a).misfit.total_cmp(&fit(*b).misfit))?;
+            centre = places.map(with_misfit).min_by(|(_, a), (_, b)| a.total_cmp(b))?.0;
             half /= 10.0;
         }
         (points.len() >= 2 + usize::from(self.limited)).then(|| fit(centre))

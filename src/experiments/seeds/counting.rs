@@ -43,7 +43,8 @@ impl ByDistance {
     pub(super) fn count(parameters: &SeedsParams, traces: &[Option<Trace>]) -> Self {
         let (gaps, bins, window) = (parameters.chain.gaps(), parameters.bins, parameters.window);
         let mut places = vec![0; gaps];
-        let [mut reached, mut active] = [bins + 1, bins].map(|rows| vec![vec![0; gaps]; rows]);
+        let [mut reached, mut active] = [bins + 1, bins].map(|rows| vec![0; rows * gaps]);
+        let (reached, active) = (&mut reached[..], &mut active[..]);
         for (seed, trace) in seeded(traces) {
             for (gap, &bits) in trace.hits.iter().enumerate() {
                 let distance = gap.abs_diff(seed);
@@ -51,18 +52,19 @@ impl ByDistance {
                 if bits == 0 {
                     continue;
                 }
-                reached[bits.trailing_zeros() as usize + 1][distance] += 1;
+                reached[(bits.trailing_zeros() as usize + 1) * gaps + distance] += 1;
                 let mut windows = (0..window).fold(0, |windows, bin| windows | bits >> bin);
                 while windows != 0 {
-                    active[windows.trailing_zeros() as usize][distance] += 1;
+                    active[windows.trailing_zeros() as usize * gaps + distance] += 1;
                     windows &= windows - 1;
                 }
             }
         }
-        for bin in 1..=bins {
-            let before = reached[bin - 1].clone();
-            reached[bin].iter_mut().zip(before).for_each(|(now, before)| *now += before);
+        for place in gaps..reached.len() {
+            reached[place] += reached[place - gaps];
         }
+        let [reached, mut active] = [reached, active]
+            .map(|rows| rows.chunks(gaps).map(<[u64]>::to_vec).collect::<Vec<_>>());
         active.truncate(bins.saturating_sub(window) + 1);
         ByDistance { places, reached, active }
     }

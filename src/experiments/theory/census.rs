@@ -2,6 +2,7 @@
 
 use impact_circuits::graph::Graph;
 use std::collections::BTreeMap;
+use std::sync::LazyLock;
 
 /// Number of primitive circuits by (N, length, class), found by enumeration.
 pub(crate) type Census = BTreeMap<(usize, usize, Vec<usize>), u128>;
@@ -9,8 +10,8 @@ pub(crate) type Census = BTreeMap<(usize, usize, Vec<usize>), u128>;
 /// Longest circuits that are enumerated on N = 1, 2, … vertices.
 pub(crate) const LONGEST: [usize; 6] = [6, 10, 8, 7, 6, 6];
 
-/// Enumerates the circuits of all small graphs.
-pub(crate) fn census() -> Census {
+/// The circuits of all small graphs.
+pub(crate) static CENSUS: LazyLock<Census> = LazyLock::new(|| {
     let mut census = Census::new();
     for (n, longest) in (1..).zip(LONGEST) {
         for circuit in Graph::of_chain(n - 1).circuits(longest) {
@@ -18,7 +19,7 @@ pub(crate) fn census() -> Census {
         }
     }
     census
-}
+});
 
 /// Lists all (N, length) that were enumerated.
 pub(crate) fn enumerated() -> impl Iterator<Item = (usize, usize)> {

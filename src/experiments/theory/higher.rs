@@ -1,7 +1,7 @@
 //! Computes what circuits that repeat vertices change: Sec. 9, Figs. 13 and 14.
 
 use super::basics::{expect_known, sum};
-use super::census::{census, counted};
+use super::census::{CENSUS, counted};
 use super::comparison::interpolate;
 use super::law::{law, means, simple};
 use crate::experiments::prelude::*;
@@ -11,7 +11,6 @@ use impact_circuits::distribution::{Law, SampleSpace};
 use impact_circuits::higher_order::{CLASSES, SHARED, doubled_as_printed, multiplicity};
 use impact_circuits::jump;
 use impact_numerics::double_double::DoubleDouble;
-use rayon::prelude::*;
 
 /// Returns P(X = k) of five classes, k = 1..=N.
 pub fn five(p: f64) -> Vec<f64> {
@@ -118,14 +117,16 @@ fn simple_by_different(p: f64) -> f64 {
 /// Returns the largest step of k* in the distribution of [`by_different`], on a grid of p in steps
 /// of 1/100 000 up to 0.04.
 fn largest_step() -> u64 {
-    let more = multiplicities();
+    // Each k has the same p^k in all its weights.
+    let logs: Vec<f64> =
+        by_different(1.0, &multiplicities()).into_iter().map(pxfm::f_log).collect();
     let top = |i: u32| {
-        let simple = law(Simple, f64::from(i) / 1e5);
-        let weights = simple.all_weights().zip(&more).map(|(simple, more)| simple.to_f64() * more);
-        (1..).zip(weights).fold((1, 0.0), |most, one| if one.1 > most.1 { one } else { most }).0
+        let log_p = pxfm::f_log(f64::from(i) / 1e5);
+        let weights = (1_u32..).zip(&logs).map(|(k, log)| (k, log + f64::from(k) * log_p));
+        weights.fold((1, f64::NEG_INFINITY), |most, one| if one.1 > most.1 { one } else { most }).0
     };
-    let ks: Vec<u64> = (0..=4000).into_par_iter().map(top).collect();
-    ks.windows(2).map(|w| w[1].abs_diff(w[0])).max().unwrap_or(0)
+    let ks: Vec<u32> = (0..=4000).map(top).collect();
+    ks.windows(2).map(|w| u64::from(w[1].abs_diff(w[0]))).max().unwrap_or(0)
 }
 
 /// Makes the table of single numbers of Sec. 9, some by `theory.curve` and `theory.relation`.
@@ -137,7 +138,7 @@ pub(super) fn higher(curve: &Table, relation: &Table) -> Table {
     const SIMPLE: &str = "simple ones there, a p a different impact";
     const APART: &str = "p at which the means differ most in proportion";
     let eq30 = doubled_as_printed(3, 3);
-    let counted = counted(&census(), 3, 3, &[1]) as u64;
+    let counted = counted(&CENSUS, 3, 3, &[1]) as u64;
     let jump = |space| expect_known(jump::p_jump(space, VERTICES));
     let (leap, shifted) = (jump(FiveClasses), jump(FiveClassesPrinted).p);
     let [first, _, last] = HIGHER_P;

@@ -41,7 +41,8 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     let values = values::read(&read(&folder, "values.json")?).map_err(fault)?;
     let ledger = ledger::read(&read(&folder, "ledger.json")?).map_err(fault)?;
     let Paper { edition, project, experiments, .. } = paper;
-    let cards = Cards { values: &values, ledger: &ledger, edition, project, experiments };
+    let (values, ledger, shared) = (&values, &ledger, Default::default());
+    let cards = Cards { values, ledger, edition, project, experiments, shared };
     let mut rows = String::new();
     let mut ids = if args.ids.is_empty() { cards.ids() } else { Vec::new() };
     for asked in &args.ids {

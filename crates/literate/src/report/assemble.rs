@@ -69,7 +69,8 @@ pub fn assemble(input: &Input<'_>) -> Result<Files, Error> {
     }
     all_in_order(errors)?;
     let Input { edition, project, experiments, .. } = *input;
-    let cards = Cards { values: &values, ledger: &ledger, edition, project, experiments };
+    let (values, ledger, shared) = (&values, &ledger, Default::default());
+    let cards = Cards { values, ledger, edition, project, experiments, shared };
     files.extend(html::shared::files(&opened, &cards, input, &labels)?);
     folder::add_lists(&mut files);
     Ok(files)
@@ -91,8 +92,9 @@ fn fill(input: &Input<'_>) -> Result<(Registry, Filler, Vec<Filled>), Error> {
         filler.insert(name, rows);
     }
     let (mut filled, mut errors) = (Vec::new(), Vec::new());
-    for document in &input.edition.documents {
-        match filler.prose(document) {
+    let documents = input.edition.documents.par_iter().with_max_len(1);
+    for prose in documents.map(|document| filler.prose(document)).collect::<Vec<_>>() {
+        match prose {
             Ok(prose) => filled.push(prose),
             Err(error) => errors.push(error),
         }

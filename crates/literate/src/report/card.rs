@@ -10,6 +10,8 @@ use crate::print::{Style, print};
 use crate::project::Project;
 use crate::table::{DataFile, table_name};
 use serde_json::Value as Json;
+use std::collections::BTreeMap;
+use std::sync::{Mutex, PoisonError};
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Card {
@@ -19,8 +21,10 @@ pub struct Card {
     /// What it is in one plain sentence; may be empty.
     pub lead: String,
     /// Names, as "standard error", and texts; an empty name continues the row before.
-    pub rows: Vec<(&'static str, Vec<Inline>)>,
+    pub rows: Vec<Row>,
 }
+
+type Row = (&'static str, Vec<Inline>);
 
 impl Card {
     fn new(id: String, title: Vec<Inline>) -> Self {
@@ -37,9 +41,10 @@ impl Card {
         self.add_row(name, words_and_maths(text));
     }
 
-    fn add_item(&mut self, name: &'static str, item: &str, project: &Project) {
+    fn add_item(&mut self, name: &'static str, item: &str, cards: &Cards<'_>) {
         if !item.is_empty() {
-            self.add_row(name, vec![link_to_line(item, project)]);
+            let link = || vec![(name, vec![link_to_line(item, cards.project)])];
+            self.rows.extend(cards.shared_rows(name, item, link));
         }
     }
 
@@ -52,12 +57,14 @@ impl Card {
     fn add_experiment(&mut self, name: &str, cards: &Cards<'_>) {
         let mut experiments = cards.experiments.iter();
         let Some(experiment) = experiments.find(|one| one.name() == name) else { return };
-        self.add_item("experiment", &experiment.item(), cards.project);
+        self.add_item("experiment", &experiment.item(), cards);
         let profile = cards.values.profile().unwrap_or(Profile::Full);
-        let parameters = experiment.parameters(profile).unwrap_or_default();
-        for (number, setting) in settings(&parameters).iter().enumerate() {
-            self.add_words(if number == 0 { "its parameters" } else { "" }, setting);
-        }
+        let parameters = || {
+            let settings = settings(&experiment.parameters(profile).unwrap_or_default());
+            let names = std::iter::once("its parameters").chain(std::iter::repeat(""));
+            names.zip(settings.iter().map(|setting| words_and_maths(setting))).collect()
+        };
+        self.rows.extend(cards.shared_rows("its parameters", name, parameters));
     }
 }
 
@@ -68,9 +75,22 @@ pub struct Cards<'a> {
     pub project: &'a Project,
     /// Experiments, for the parameters that cards of their results show.
     pub experiments: &'a [&'static dyn AnyExperiment],
+    /// Rows that many cards have, by their name and what they are about.
+    pub shared: Mutex<BTreeMap<(&'static str, String), Vec<Row>>>,
 }
 
 impl Cards<'_> {
+    /// Returns rows that many cards have, and makes them for the first of these.
+    fn shared_rows(
+        &self,
+        name: &'static str,
+        of: &str,
+        make: impl FnOnce() -> Vec<Row>,
+    ) -> Vec<Row> {
+        let mut shared = self.shared.lock().unwrap_or_else(PoisonError::into_inner);
+        shared.entry((name, of.into())).or_insert_with(make).clone()
+    }
+
     /// Makes the card of an id: `fig:spread` or `Fig:3`; `claim:` may be left out.
     pub fn get(&self, id: &str) -> Option<Card> {
         let id = id.trim();
@@ -143,7 +163,7 @@ impl Cards<'_> {
             (_, "") => card.add_command("paper", self.project),
             (_, name) => card.add_command(&format!("paper --rerun {name}"), self.project),
         }
-        card.add_item("computed by", &value.source, self.project);
+        card.add_item("computed by", &value.source, self);
         // Two paths of one item: the home was written by `stringify!`, the source by `type_name`.
         let home = self.ledger.equations.iter().find(|equation| equation.home == value.source);
         if let Some(number) = home.map(|equation| equation.number) {
@@ -168,7 +188,7 @@ impl Cards<'_> {
         card.add_words("shows", &figure.description);
         card.add_row("picture", links([&figure.picture]));
         card.add_row("data", links(&figure.data));
-        card.add_item("drawn by", &figure.source, self.project);
+        card.add_item("drawn by", &figure.source, self);
         for name in &figure.experiments {
             card.add_experiment(name, self);
         }
@@ -182,7 +202,7 @@ impl Cards<'_> {
         let mut card = Card::new(format!("eq:{number}"), title);
         card.lead = format!("Equation ({number}).");
         card.add_words("stands in", &format!("Sec. {}", equation.section));
-        card.add_item("home", &equation.home, self.project);
+        card.add_item("home", &equation.home, self);
         if let Some(towards) = &equation.step_towards {
             card.add_words("is", &format!("a step towards {towards}"));
         }
@@ -206,7 +226,7 @@ impl Cards<'_> {
         card.add_words("because", &with_formulas(&claim.reason));
         card.add_words("note", &with_formulas(&claim.note.to_string()));
         card.add_words("stands in", &claim.place);
-        card.add_item("judged by", &(self.edition.judged_by)(&claim.id), self.project);
+        card.add_item("judged by", &(self.edition.judged_by)(&claim.id), self);
         let (to, label) = (card.id.clone(), "the row of this statement".into());
         card.add_row("ledger", vec![Inline::Reference { to, within: None, label }]);
         card.add_command(&format!("check {}", claim.id), self.project);

@@ -9,6 +9,7 @@ use crate::claims::Kind;
 use crate::figures::plain;
 use crate::input::one_line;
 use crate::table::Table;
+use rayon::prelude::*;
 use std::collections::{BTreeSet, HashMap, HashSet};
 
 /// Words of code with numbers that have no reason, up to what is computed between them.
@@ -34,11 +35,11 @@ pub fn check(input: &Input<'_>, declared: &Declared) -> Vec<Error> {
             numbered.push((text, file, numerals));
         }
     }
-    let wanted = numbered.iter().flat_map(|(.., numerals)| numerals).map(|(_, one)| one.as_str());
-    let parts = wanted.map(|one| one.split(|c: char| !c.is_alphanumeric()));
-    let wanted: HashSet<&str> =
-        parts.filter_map(|mut parts| parts.find(|it| !it.is_empty())).collect();
-    let typed = code.chain(texts).flat_map(|(path, text)| typed(&path, text, &wanted));
+    let meant = numbered.iter().flat_map(|(.., numerals)| numerals).map(|(_, one)| one.as_str());
+    let meant: HashSet<&str> = meant.collect();
+    let files: Vec<(String, &str)> = code.chain(texts).collect();
+    let files = files.par_iter().with_max_len(1);
+    let typed = files.flat_map_iter(|(path, text)| typed(path, text, &meant));
     let typed: Vec<Typed> = typed.collect();
     let mut by_numeral: HashMap<&str, Vec<&Typed>> = HashMap::new();
     for typed in &typed {
@@ -63,32 +64,26 @@ pub fn check(input: &Input<'_>, declared: &Declared) -> Vec<Error> {
 }
 
 /// Returns what stands between quotation marks and braces, in strings and elsewhere, with letters
-/// and a number that begins with one of the wanted words or runs of digits.
-fn typed(path: &str, code: &str, wanted: &HashSet<&str>) -> Vec<Typed> {
+/// and one of the numbers that are meant.
+fn typed(path: &str, code: &str, meant: &HashSet<&str>) -> Vec<Typed> {
     let code = code.split("#[cfg(test)]\nmod ").next().unwrap_or_default();
-    let wants_words = wanted.iter().any(|word| word.starts_with(char::is_alphabetic));
+    let wants_words = meant.iter().any(|word| word.starts_with(char::is_alphabetic));
     let (mut typed, mut line) = (Vec::new(), 1);
     for piece in code.split('"').flat_map(|piece| piece.split('{')).flat_map(|it| it.split('}')) {
         let may_have_number = wants_words || piece.bytes().any(|byte| byte.is_ascii_digit());
-        if may_have_number && has_one_of(piece, wanted) && piece.contains(char::is_alphabetic) {
+        if may_have_number && piece.contains(char::is_alphabetic) {
             let text = piece.replace(r"\\", r"\");
             let numerals = lint::find_numbers(&text, 0..text.len(), &Declared::default());
-            let numerals = numerals.into_iter().map(|(_, numeral)| numeral).collect();
-            let (place, words) = (format!("{path}:{line}"), bare(&text.replace('\\', "")));
-            typed.push(Typed { place, words, numerals });
+            let numerals = numerals.into_iter().map(|(_, numeral)| numeral);
+            let numerals: Vec<_> = numerals.filter(|one| meant.contains(&**one)).collect();
+            if !numerals.is_empty() {
+                let (place, words) = (format!("{path}:{line}"), bare(&text.replace('\\', "")));
+                typed.push(Typed { place, words, numerals });
+            }
         }
         line += piece.matches('\n').count();
     }
     typed
-}
-
-/// Returns whether a text has one of these words, or runs of digits within a word.
-fn has_one_of(text: &str, words: &HashSet<&str>) -> bool {
-    text.split(|c: char| !c.is_alphanumeric()).any(|word| {
-        let has_digit = word.bytes().any(|byte| byte.is_ascii_digit());
-        let mut runs = word.split(|c: char| !c.is_ascii_digit());
-        words.contains(word) || has_digit && runs.any(|run| words.contains(run))
-    })
 }
 
 impl Typed {

@@ -55,14 +55,14 @@ impl Filler {
         }
         let set = tera.set_delimiters(delimiters);
         tera.autoescape_on(Vec::<&str>::new());
-        let names = context_names(values, &tables);
+        let sources = templates.iter().filter_map(source);
+        let parse = || set.and_then(|()| tera.add_raw_templates(sources));
+        let (names, added) = rayon::join(|| context_names(values, &tables), parse);
         let mut context = Context::new();
         for (group, names) in names.as_object().into_iter().flatten() {
             context.insert(group.clone(), names);
         }
-        let mut filler = Filler { tera, templates: templates.clone(), declared, context, names };
-        let sources: Vec<(String, String)> = templates.iter().filter_map(source).collect();
-        let added = set.and_then(|()| filler.tera.add_raw_templates(sources));
+        let filler = Filler { tera, templates: templates.clone(), declared, context, names };
         added.map_err(|error| filler.translate(&error))?;
         Ok(filler)
     }

@@ -17,6 +17,9 @@ use std::sync::LazyLock;
 pub struct Declared {
     #[serde(default)]
     literal: Vec<Group>,
+    /// All phrases in lower case, each ended by `\0`.
+    #[serde(skip)]
+    phrases: String,
 }
 
 #[derive(Clone, Debug, Deserialize)]
@@ -30,8 +33,10 @@ impl Declared {
     pub fn read(text: &str) -> Result<Self, Error> {
         let syntax = |error| Error::Template(format!("literals.toml:{}", toml_fault(text, &error)));
         let declared: Declared = toml::from_str(text).map_err(syntax)?;
+        let phrases = declared.literal.iter().flat_map(|group| &group.phrases);
+        let phrases = phrases.map(|phrase| phrase.to_ascii_lowercase() + "\0").collect();
         match declared.literal.iter().find(|group| group.why.trim().is_empty()) {
-            None => Ok(declared),
+            None => Ok(Declared { phrases, ..declared }),
             Some(Group { phrases, .. }) => {
                 Err(Error::Template(format!("literals.toml: {phrases:?} have no reason in `why`")))
             }
@@ -46,9 +51,10 @@ impl Declared {
             words.is_some_and(|words| words.replace('\n', " ").eq_ignore_ascii_case(phrase))
         };
         let word = word.to_ascii_lowercase();
-        self.literal.iter().flat_map(|group| &group.phrases).any(|phrase| {
-            let phrase = phrase.to_ascii_lowercase();
-            phrase.match_indices(&word).any(|(offset, _)| stands(&phrase, offset))
+        self.phrases.match_indices(&word).any(|(at, _)| {
+            let begin = self.phrases[..at].rfind('\0').map_or(0, |end| end + 1);
+            let phrase = self.phrases[begin..].split('\0').next().unwrap_or_default();
+            stands(phrase, at - begin)
         })
     }
 }
@@ -62,6 +68,13 @@ static LISTS: LazyLock<[BTreeSet<&str>; 3]> =
     LazyLock::new(|| [WORDS, BETWEEN, AROUND].map(|list| list.split_whitespace().collect()));
 
 fn is_number_word(word: &str) -> bool {
+    // Of most words two letters tell, much faster, that they are none.
+    let [first, second, ..] = word.as_bytes() else { return false };
+    match (first.to_ascii_lowercase(), second.to_ascii_lowercase()) {
+        (b't', b'e' | b'h' | b'i' | b'w') | (b'f' | b's' | b'e' | b'n' | b'm' | b'b', b'i') => (),
+        (b'f' | b'd', b'o') | (b's', b'e') | (b'e', b'l') | (b'h', b'u') => (),
+        _ => return false,
+    }
     let word = word.to_lowercase();
     let word = word.strip_suffix("fold").unwrap_or(&word);
     LISTS[0].contains(word)
@@ -77,7 +90,7 @@ pub fn find_numbers(text: &str, part: Range<usize>, declared: &Declared) -> Vec<
     }
     while let Some(c) = text[offset..part.end].chars().next() {
         let (start, rest) = (offset, &text[offset..part.end]);
-        let escaped = text[..start].strip_suffix('\\').filter(|_| c.is_numeric());
+        let escaped = if c.is_numeric() { text[..start].strip_suffix('\\') } else { None };
         let is_literal = escaped.is_some_and(|before| is_name(before, &text[start..]));
         offset += match c {
             _ if is_literal => rest.find(ends_literal).unwrap_or(rest.len()),
@@ -91,7 +104,7 @@ pub fn find_numbers(text: &str, part: Range<usize>, declared: &Declared) -> Vec<
             let signs = rest.split(|c: char| !(c.is_numeric() || ".,".contains(c))).next();
             numeral = signs.unwrap_or_default().trim_end_matches(['.', ',']);
             offset = offset.max(start + numeral.len());
-        } else if is_number_word(word) {
+        } else if is_word(c) && is_number_word(word) {
             // With a hyphen before a word that is not a number it names a kind: *two-sided*.
             let next = text[offset..].strip_prefix('-').unwrap_or_default();
             let next = next.split(|c: char| !c.is_alphabetic()).next().unwrap_or_default();
@@ -116,6 +129,9 @@ fn literal_digit(sign: &str) -> Option<&str> {
 }
 
 pub fn without_backslashes(text: &str) -> String {
+    if !text.contains('\\') {
+        return text.into();
+    }
     tex::signs(text).map(|sign| literal_digit(sign).unwrap_or(sign)).collect()
 }
 
@@ -316,6 +332,7 @@ mod tests {
         let sentence = "k_12";
         assert_eq!(find_numbers(sentence, 2..4, &Declared::default()), [], "the part of a word");
         assert!(Declared::read("[[literal]]\nwhy = \" \"\nphrases = [\"two\"]").is_err());
+        assert_eq!(WORDS.split_whitespace().find(|word| !is_number_word(word)), None);
     }
 
     #[test]

@@ -15,6 +15,7 @@ pub fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {
         match c {
+            'a'..='z' | 'A'..='Z' | '0'..='9' | ' ' => escaped.push(c),
             '\\' => escaped.push_str(r"\textbackslash{}"),
             '{' | '}' | '$' | '&' | '#' | '%' | '_' => escaped.extend(['\\', c]),
             '^' => escaped.push_str(r"\textasciicircum{}"),

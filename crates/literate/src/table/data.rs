@@ -33,7 +33,11 @@ impl DataFile {
     pub fn to_csv(&self) -> String {
         let mut csv = String::new();
         for line in std::iter::once(&self.header).chain(&self.rows) {
-            csv += &(line.iter().map(|cell| quoted(cell)).collect::<Vec<_>>().join(",") + "\n");
+            for (index, cell) in line.iter().enumerate() {
+                csv.push_str(if index > 0 { "," } else { "" });
+                csv.push_str(&quoted(cell));
+            }
+            csv.push('\n');
         }
         csv
     }
@@ -59,7 +63,7 @@ pub struct DataFile {
 }
 
 fn quoted(cell: &str) -> Cow<'_, str> {
-    if cell.bytes().any(|byte| b",\"\n".contains(&byte)) {
+    if cell.as_bytes().iter().any(|byte| matches!(byte, b',' | b'"' | b'\n')) {
         format!("\"{}\"", cell.replace('"', "\"\"")).into()
     } else {
         cell.into()

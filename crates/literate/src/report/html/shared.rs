@@ -1,6 +1,6 @@
 //! Makes the files that all pages share: fonts, the cards of their numbers, and the index of data.
 
-use super::super::card::{Card, Cards};
+use super::super::card::Cards;
 use super::super::document::{self, Inline};
 use super::super::edition::Edition;
 use super::super::error::Error;
@@ -27,32 +27,39 @@ pub fn files(
     input: &Input<'_>,
     labels: &Labels,
 ) -> Result<Files, Error> {
-    let page = Page::new(input);
-    let (mut rows, mut indices, mut cards_by_id) = (Vec::new(), BTreeMap::new(), BTreeMap::new());
-    let made: Vec<Option<Card>> = ids.par_iter().map(|id| cards.get(id)).collect();
-    for (id, card) in ids.iter().zip(made) {
+    let write = |id: &String| {
         let unknown = || Error::Template(format!("there is no value {id}"));
-        let card = card.ok_or_else(unknown)?;
-        let mut row_indices = Vec::new();
-        for (name, text) in &card.rows {
-            let resolved = |inline: &Inline| match inline.clone() {
-                Inline::Reference { to, label, .. } => {
-                    let within = labels.get(&to).map(|label| label.document);
-                    vec![Inline::Reference { to, within, label }]
-                }
-                other => document::relative_link(other, input.top),
-            };
+        let (page, card) = (Page::new(input), cards.get(id).ok_or_else(unknown)?);
+        let resolved = |inline: &Inline| match inline.clone() {
+            Inline::Reference { to, label, .. } => {
+                let within = labels.get(&to).map(|label| label.document);
+                vec![Inline::Reference { to, within, label }]
+            }
+            other => document::relative_link(other, input.top),
+        };
+        let row = |(name, text): &(&str, Vec<Inline>)| {
             let words: Vec<Inline> = text.iter().flat_map(resolved).collect();
             let name = if name.is_empty() { "" } else { &format!("<dt>{name}</dt>") };
-            let row = format!("{name}<dd>{}</dd>", page.inlines(&words));
-            row_indices.push(*indices.entry(row.clone()).or_insert_with(|| {
-                rows.push(row);
+            format!("{name}<dd>{}</dd>", page.inlines(&words))
+        };
+        let rows: Vec<String> = card.rows.iter().map(row).collect();
+        let title = page.inlines(&card.title);
+        Error::check(page.errors.into_inner())?;
+        Ok((title, escape(&card.lead), rows))
+    };
+    let written = ids.par_iter().map(write).collect::<Vec<Result<_, Error>>>();
+    let (mut rows, mut indices, mut cards_by_id) = (Vec::new(), BTreeMap::new(), BTreeMap::new());
+    for (id, card) in ids.iter().zip(written) {
+        let (title, lead, own) = card?;
+        let mut row_indices = Vec::new();
+        for row in own {
+            row_indices.push(*indices.entry(row).or_insert_with_key(|row| {
+                rows.push(row.clone());
                 rows.len() - 1
             }));
         }
-        cards_by_id.insert(id, (page.inlines(&card.title), escape(&card.lead), row_indices));
+        cards_by_id.insert(id, (title, lead, row_indices));
     }
-    Error::check(page.errors.into_inner())?;
     let json = serde_json::to_string(&(rows, cards_by_id)).unwrap_or_default();
     let mut files = Files::from([("cards.js".into(), format!("CARDS = {json};\n").into_bytes())]);
     let font = |(name, bytes): (&str, &[u8])| (format!("fonts/{name}.woff2"), bytes.to_vec());
