@@ -33,11 +33,11 @@ impl Failure {
         Failure { code: 1, message: one_line(&message.into(), LONGEST) }
     }
 
-    pub fn io(error: &io::Error, what: impl Display, otherwise: &str) -> Self {
+    pub(crate) fn io(error: &io::Error, what: impl Display, otherwise: &str) -> Self {
         Failure::input(format!("{what}: {error}; {}", remedy(error, otherwise)))
     }
 
-    pub fn in_context(self, context: impl Display) -> Self {
+    pub(crate) fn in_context(self, context: impl Display) -> Self {
         Failure { message: format!("{context}: {}", self.message), ..self }
     }
 }

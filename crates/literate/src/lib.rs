@@ -58,10 +58,10 @@ pub mod prelude {
     pub use rand::RngExt;
 }
 mod print;
-pub mod project;
-pub mod prose;
+mod project;
+mod prose;
 pub mod report;
-pub mod sample;
+mod sample;
 mod source;
 pub mod table;
 pub mod value;
@@ -72,4 +72,6 @@ pub use impact_numerics::{double_double, estimates, random, statistics};
 pub use literate_sources::{sources, texts};
 pub use paper::{FigureSpec, Lab, MakeValues, Paper, Rows};
 pub use project::Project;
+pub use prose::Templates;
+pub use sample::Sampled;
 pub use source::Sources;

@@ -7,8 +7,9 @@ use crate::figures::{self, Figure};
 use crate::input;
 use crate::names::{self, Names};
 use crate::project::Project;
-use crate::report::{Edition, Value};
+use crate::report::Edition;
 use crate::source::Sources;
+use crate::value::Value;
 use serde_json::Value as Json;
 use std::collections::{BTreeMap, BTreeSet};
 use std::panic::Location;
@@ -18,7 +19,7 @@ pub struct FigureSpec {
     /// Its name; its picture is `figures/NAME.svg`.
     pub name: &'static str,
     pub needs: &'static [&'static dyn AnyExperiment],
-    pub draw: fn(&Results) -> Result<Figure, figures::Error>,
+    pub(crate) draw: fn(&Results) -> Result<Figure, figures::Error>,
     place: &'static Location<'static>,
 }
 
@@ -165,7 +166,7 @@ impl Paper {
     }
 
     /// Finds a figure by its name or number: `spread`, `3`, `s1`.
-    pub fn find_figure(&self, name_or_number: &str) -> Result<&FigureSpec, Failure> {
+    pub(crate) fn find_figure(&self, name_or_number: &str) -> Result<&FigureSpec, Failure> {
         self.figures.iter().find(|figure| figure.is(name_or_number)).ok_or_else(|| {
             let names: Vec<&str> = self.figures.iter().map(|figure| figure.name).collect();
             Failure::input(format!(

@@ -50,13 +50,13 @@ pub struct Templates {
 }
 
 impl Templates {
-    pub fn from_files<'a>(files: impl IntoIterator<Item = (&'a str, &'a str)>) -> Self {
+    pub(crate) fn from_files<'a>(files: impl IntoIterator<Item = (&'a str, &'a str)>) -> Self {
         let files = SKIN.into_iter().chain(files);
         let files = files.map(|(path, text)| (path.to_string(), text.to_string())).collect();
         Templates { files, ..Templates::default() }
     }
 
-    pub fn read(folder: &Path) -> Result<Self, Error> {
+    pub(crate) fn read(folder: &Path) -> Result<Self, Error> {
         let mut templates = Templates::from_files([]);
         let here = std::env::current_dir().unwrap_or_default();
         templates.folder = format!("{}/", folder.strip_prefix(here).unwrap_or(folder).display());

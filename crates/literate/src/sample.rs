@@ -26,8 +26,8 @@ impl Sample {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sampled {
-    pub estimate: Estimate,
-    pub sample: Sample,
+    pub(crate) estimate: Estimate,
+    pub(crate) sample: Sample,
 }
 
 impl Deref for Sampled {

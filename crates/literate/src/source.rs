@@ -22,7 +22,7 @@ impl Sources {
 
     /// Returns the listing of an item: the lines of its file between `// listing: NAME`, with the
     /// last name of its path, and `// end`, without indentation.
-    pub fn listing(&self, item: &str) -> Result<String, String> {
+    pub(crate) fn listing(&self, item: &str) -> Result<String, String> {
         let file = self.file(item);
         let source = self.files.iter().find(|(path, _)| Some(*path) == file);
         let name = item.rsplit("::").next().unwrap_or_default();

@@ -156,19 +156,19 @@ pub enum Provenance {
 pub struct Value {
     /// The name: `version` is `«v.version»`, and `printed.threshold` is `«printed.threshold»`.
     pub id: String,
-    pub number: Number,
+    pub(crate) number: Number,
     /// Its unit as Markdown, as `$1/\omega$`; empty for a pure number.
     #[serde(default, skip_serializing_if = "String::is_empty")]
-    pub unit: String,
-    pub kind: Provenance,
+    pub(crate) unit: String,
+    pub(crate) kind: Provenance,
     /// Path of the item that computed it, as the compiler writes it: `my_paper::jump::p_jump`.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub source: String,
     /// The experiment whose results it was read from; empty for parameters.
     #[serde(default, skip_serializing_if = "String::is_empty")]
-    pub experiment: String,
+    pub(crate) experiment: String,
     #[serde(default, skip_serializing_if = "String::is_empty")]
-    pub note: String,
+    pub(crate) note: String,
 }
 
 impl Value {
@@ -191,7 +191,7 @@ impl Value {
     }
 
     /// Makes a number as somebody printed it, with its decimals, at a place of a paper.
-    pub fn printed(
+    pub(crate) fn printed(
         id: impl Into<String>,
         value: f64,
         decimals: usize,
@@ -211,7 +211,7 @@ impl Value {
     }
 
     /// Returns its number as a double, or `None` if it has no number.
-    pub fn as_f64(&self) -> Option<f64> {
+    pub(crate) fn as_f64(&self) -> Option<f64> {
         match self.number {
             Number::Integer(n) => Some(n as f64),
             Number::Real { value, .. } => Some(value),
@@ -221,13 +221,13 @@ impl Value {
 
     /// Returns its number with the standard error, which is half of the interval, or `None` if it
     /// has no number.
-    pub fn estimate(&self) -> Option<Estimate> {
+    pub(crate) fn estimate(&self) -> Option<Estimate> {
         let (value, error) = (self.as_f64()?, self.standard_error());
         Some(Estimate { value, error, interval: [value - error, value + error] })
     }
 
     /// Returns its standard error, which is zero if it has no error.
-    pub fn standard_error(&self) -> f64 {
+    pub(crate) fn standard_error(&self) -> f64 {
         match self.kind {
             Provenance::Ensemble { standard_error, .. } => standard_error,
             _ => 0.0,
@@ -245,7 +245,7 @@ pub fn origin<F>(_: F) -> Origin {
 }
 
 /// Returns the [`origin`] of what a function computes that is given by its type.
-pub fn origin_of<F>() -> Origin {
+pub(crate) fn origin_of<F>() -> Origin {
     // A closure counts as the function in which it stands.
     let path = std::any::type_name::<F>().replace("::{{closure}}", "");
     let (Some(from), Some(to)) = (path.find('<'), path.rfind('>')) else { return Origin(path) };

@@ -14,7 +14,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    pub fn is_printed(self) -> bool {
+    pub(crate) fn is_printed(self) -> bool {
         matches!(self, Kind::Statement | Kind::Definition)
     }
 }
@@ -73,7 +73,7 @@ words! {
 
 impl Verdict {
     /// Returns the verdict as a sign, which needs no colour.
-    pub fn sign(self) -> char {
+    pub(crate) fn sign(self) -> char {
         match self {
             Verdict::Reproduced => '✓',
             Verdict::DiffersAndExplained => '≠',
@@ -89,21 +89,21 @@ pub struct Check {
     pub kind: Kind,
     /// The author's word for a difference that is explained, such as `misprint`.
     #[serde(default, skip_serializing_if = "String::is_empty")]
-    pub why: String,
+    pub(crate) why: String,
     /// The sentence of which it is one reading of several; empty if it is the only one.
     #[serde(default, skip_serializing_if = "String::is_empty")]
-    pub sentence: String,
+    pub(crate) sentence: String,
     pub id: String,
     /// Where it was printed; empty for a relation.
-    pub place: String,
+    pub(crate) place: String,
     /// What it states, in our words.
-    pub statement: String,
+    pub(crate) statement: String,
     /// What can be read there, in its shortest form.
-    pub expected: String,
-    pub found: Text,
+    pub(crate) expected: String,
+    pub(crate) found: Text,
     /// How far from the printed value a result may lie.
-    pub tolerance: Text,
-    pub reason: String,
+    pub(crate) tolerance: Text,
+    pub(crate) reason: String,
     pub basis: Basis,
     pub verdict: Verdict,
     /// What explains a difference, or what else a reader should know.
@@ -111,12 +111,12 @@ pub struct Check {
 }
 
 impl Check {
-    pub fn new(kind: Kind, id: &str, statement: &str, found: impl Into<Text>) -> Check {
+    pub(crate) fn new(kind: Kind, id: &str, statement: &str, found: impl Into<Text>) -> Check {
         let (id, statement, found) = (id.into(), statement.into(), found.into());
         Check { kind, id, statement, found, ..Check::default() }
     }
 
-    pub fn judged(self, agrees: bool) -> Check {
+    pub(crate) fn judged(self, agrees: bool) -> Check {
         let verdict = if agrees { Verdict::Reproduced } else { Verdict::Differs };
         Check { verdict, ..self }
     }
@@ -131,7 +131,7 @@ impl Check {
         Check { verdict, ..self }.note(why)
     }
 
-    pub fn with_tolerance(self, tolerance: impl Into<Text>, reason: &str) -> Check {
+    pub(crate) fn with_tolerance(self, tolerance: impl Into<Text>, reason: &str) -> Check {
         Check { tolerance: tolerance.into(), reason: reason.into(), ..self }
     }
 
@@ -147,12 +147,12 @@ impl Check {
     }
 
     /// Returns the author's word for the difference, if there is one and it is explained.
-    pub fn difference(&self) -> Option<&str> {
+    pub(crate) fn difference(&self) -> Option<&str> {
         let is_explained = self.verdict == Verdict::DiffersAndExplained;
         (is_explained && !self.why.is_empty()).then_some(&self.why)
     }
 
-    pub fn words(&self) -> &'static str {
+    pub(crate) fn words(&self) -> &'static str {
         match (self.kind, self.verdict) {
             (Kind::Statement | Kind::Definition, verdict) => verdict.words(),
             (Kind::Relation, Verdict::Reproduced) => "holds",

@@ -73,7 +73,11 @@ impl Evidence<'_> {
 
     /// Returns several numbers of one row of a table, `theory.jump` or `theory.gap[sigma=0.2]`.
     #[track_caller]
-    pub fn numbers<const N: usize>(&self, row: &str, names: [&str; N]) -> Result<[f64; N], Error> {
+    pub fn numbers<const N: usize>(
+        &self,
+        row: &str,
+        names: [&str; N],
+    ) -> Result<[f64; N], Error> {
         let mut numbers = [0.0; N];
         for (number, name) in numbers.iter_mut().zip(names) {
             *number = self.number(&format!("{row}.{name}"))?;
@@ -188,7 +192,7 @@ impl Evidence<'_> {
     }
 
     /// Starts a check with what was found, and whether it agrees with what was printed.
-    pub fn found(&self, found: impl Into<Text>, agrees: bool) -> Check {
+    pub(crate) fn found(&self, found: impl Into<Text>, agrees: bool) -> Check {
         self.open(found).judged(agrees)
     }
 

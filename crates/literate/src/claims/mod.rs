@@ -11,13 +11,15 @@ mod texts;
 mod words;
 mod wrong;
 
-pub use check::{Basis, Check, Kind, Verdict, score};
+pub(crate) use check::score;
+pub use check::{Basis, Check, Kind, Verdict};
 pub use evidence::{Error, Evidence, Judged};
 pub use level::{CheckLevel, FAMILY_LEVEL};
-pub use published::{Parameter, Published, PublishedError, Statement};
+pub use published::{Published, PublishedError, Statement};
 pub(crate) use rule::check_rules;
 pub use rule::{Rule, ids_blind_to_number, judge_all, level_of};
 pub use text::Text;
-pub use words::{Numbers, Words};
+pub use words::Numbers;
+pub(crate) use words::Words;
 pub use wrong::ids_never_moved;
 pub(crate) use wrong::is_trying;

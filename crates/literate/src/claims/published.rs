@@ -14,10 +14,10 @@ pub struct Published {
     #[serde(rename = "parameter")]
     pub parameters: Vec<Parameter>,
     #[serde(rename = "statement")]
-    pub statements: Vec<Statement>,
+    pub(crate) statements: Vec<Statement>,
     /// The texts of the checks, which stand in other files.
     #[serde(skip)]
-    pub words: Words,
+    pub(crate) words: Words,
 }
 
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -25,8 +25,8 @@ pub struct Published {
 pub struct Parameter {
     /// Its id, `«paper.id»` in the prose.
     pub id: String,
-    pub place: String,
-    pub value: f64,
+    pub(crate) place: String,
+    pub(crate) value: f64,
 }
 
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
@@ -39,19 +39,19 @@ pub struct Statement {
     pub kind: Kind,
     /// A word for the difference, if it differs: `misprint` or another; scores count each word.
     #[serde(default)]
-    pub why: String,
-    pub place: String,
+    pub(crate) why: String,
+    pub(crate) place: String,
     /// The id of the sentence of which it is one reading of several; empty if it is the only one.
     #[serde(default)]
-    pub sentence: String,
-    pub statement: String,
+    pub(crate) sentence: String,
+    pub(crate) statement: String,
     /// What can be read there, in its shortest form.
     pub printed: String,
     /// The number in it, if there is one; that of `printed`, where this is a number alone.
     pub value: Option<f64>,
     /// The place of its last printed digit: its decimals, and −3 if it was printed in thousands.
     #[serde(default)]
-    pub decimals: Option<i32>,
+    pub(crate) decimals: Option<i32>,
     #[serde(skip)]
     pub(crate) line: usize,
 }

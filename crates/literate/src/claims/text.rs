@@ -39,7 +39,7 @@ impl Text {
         Ok(text)
     }
 
-    pub fn from_sentence(sentence: &str, numbers: impl IntoIterator<Item = Number>) -> Text {
+    pub(crate) fn from_sentence(sentence: &str, numbers: impl IntoIterator<Item = Number>) -> Text {
         let mut numbers = numbers.into_iter();
         Text::fill(sentence, |_| numbers.next()).unwrap_or_default()
     }
@@ -49,7 +49,7 @@ impl Text {
         self
     }
 
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 }

@@ -34,7 +34,7 @@ pub struct Words(BTreeMap<String, (String, Texts)>);
 impl Words {
     /// Reads all files `claims/NAME.toml`, which have a table `[id]` for each check; what stands in
     /// `[shared]` holds for each check of the file without its own.
-    pub fn read(templates: &Templates) -> Result<Words, String> {
+    pub(crate) fn read(templates: &Templates) -> Result<Words, String> {
         let mut words = Words::default();
         let is_of_claims =
             |(path, _): &(&str, &str)| path.starts_with("claims/") && path.ends_with(".toml");

@@ -12,7 +12,7 @@ pub enum Profile {
 }
 
 impl Profile {
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Profile::Quick => "quick",
             Profile::Full => "full",

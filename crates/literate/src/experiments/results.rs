@@ -17,7 +17,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 pub type DerivedTables = fn(&Results, &[Table]) -> Option<Vec<Table>>;
 
 pub struct Results {
-    pub profile: Profile,
+    pub(crate) profile: Profile,
     results: Vec<(&'static dyn AnyExperiment, AnyResult)>,
     /// The tables that need several of them.
     derived: Vec<DerivedTables>,
@@ -80,14 +80,17 @@ impl Results {
     }
 
     /// Returns the result of an experiment for a test to change; tables are made anew.
-    pub fn get_mut<P, T: Json, U>(&mut self, experiment: &Experiment<P, T, U>) -> Option<&mut T> {
+    pub fn get_mut<P, T: Json, U>(
+        &mut self,
+        experiment: &Experiment<P, T, U>,
+    ) -> Option<&mut T> {
         self.tables = OnceLock::new();
         let (_, result) = self.results.iter_mut().find(|(one, _)| one.name() == experiment.name)?;
         Arc::get_mut(result)?.downcast_mut()
     }
 
     /// Returns the tables of all results, by name. Fails if two have one name or one has a fault.
-    pub fn tables(&self) -> Result<&Tables, Error> {
+    pub(crate) fn tables(&self) -> Result<&Tables, Error> {
         let again = || {
             let results = self.results.iter();
             self.joined(
@@ -144,7 +147,7 @@ impl Results {
 
     /// Returns the cell with this address: `theory.jump.p_jump`.
     #[track_caller]
-    pub fn cell(&self, address: &str) -> Result<&Value, Error> {
+    pub(crate) fn cell(&self, address: &str) -> Result<&Value, Error> {
         self.note(table_name(address).unwrap_or(address));
         Ok(find_cell(self.tables()?, address)?)
     }
@@ -158,7 +161,7 @@ impl Results {
 
     /// Returns the results of experiments in this order: saved results where they are fresh, and
     /// else results of runs.
-    pub fn run(
+    pub(crate) fn run(
         experiments: &[&'static dyn AnyExperiment],
         derived: &[DerivedTables],
         session: &Session<'_>,

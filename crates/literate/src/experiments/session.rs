@@ -14,8 +14,8 @@ use crate::prose::Templates;
 pub struct Session<'a> {
     pub project: &'a Project,
     pub templates: Templates,
-    pub profile: Profile,
-    pub store: Store,
+    pub(crate) profile: Profile,
+    pub(crate) store: Store,
     pub progress: Progress,
     /// What results are made of.
     pub(crate) code: Code,

@@ -108,7 +108,7 @@ impl Store {
     }
 
     /// Returns the saved result, or why it must be run, as [`Store::fresh`] does.
-    pub fn load<T: DeserializeOwned>(&self, identity: &Identity) -> Result<T, String> {
+    pub(crate) fn load<T: DeserializeOwned>(&self, identity: &Identity) -> Result<T, String> {
         let saved = self.fresh(identity)?;
         let body = saved.split('\n').nth(2).unwrap_or_default();
         serde_json::from_str(body).map_err(|_| run_again(OLDER_FORMAT))
@@ -124,7 +124,7 @@ impl Store {
 
     /// Returns the text of a saved file that is whole and was made of the same, or why the result
     /// must be run, in one line: `run`, `run again, Cargo.lock changed`.
-    pub fn fresh(&self, identity: &Identity) -> Result<String, String> {
+    pub(crate) fn fresh(&self, identity: &Identity) -> Result<String, String> {
         let saved = match self.path(identity).map(|path| read_text(&path)) {
             Some(Ok(saved)) => saved,
             Some(Err(error)) if !is_absent(&error) => {
@@ -137,13 +137,13 @@ impl Store {
     }
 
     /// Makes the folder, so that one which cannot be made is known before a run.
-    pub fn prepare(&self) -> Result<(), Error> {
+    pub(crate) fn prepare(&self) -> Result<(), Error> {
         let Some(folder) = &self.folder else { return Ok(()) };
         let failed = |source| Error::Store { path: folder.clone(), source };
         std::fs::create_dir_all(folder).map_err(failed)
     }
 
-    pub fn save<T: Json>(&self, identity: &Identity, result: &T) -> Result<(), Error> {
+    pub(crate) fn save<T: Json>(&self, identity: &Identity, result: &T) -> Result<(), Error> {
         let Some(path) = self.path(identity) else { return Ok(()) };
         let [made_of, body] = [to_json(identity, identity)?, to_json(identity, result)?];
         let file = format!("{}\n{made_of}\n{body}\n", digest(&[&made_of, &body]));
@@ -151,7 +151,7 @@ impl Store {
     }
 
     /// Removes the units of a result, and the result too if it is to be run again.
-    pub fn remove(&self, identity: &Identity, is_to_run: bool) -> Result<(), Error> {
+    pub(crate) fn remove(&self, identity: &Identity, is_to_run: bool) -> Result<(), Error> {
         let stem = format!("{}-", identity.file_stem());
         let is_unit = |path: &PathBuf| {
             let name = path.file_name().unwrap_or_default().to_string_lossy();

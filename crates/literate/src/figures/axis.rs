@@ -35,7 +35,7 @@ pub struct Axis {
     /// With mark-up; empty for none.
     pub label: String,
     /// Name and unit of its column in data files, if they are not in the label.
-    pub column: Option<String>,
+    pub(crate) column: Option<String>,
     /// From low to high.
     pub ticks: Vec<Tick>,
 }
@@ -133,7 +133,11 @@ impl Axis {
     }
 
     /// Makes a logarithmic axis of the decades that hold all positive values.
-    pub fn decades_around(values: impl Iterator<Item = f64>, every: i32, label: &str) -> Self {
+    pub fn decades_around(
+        values: impl Iterator<Item = f64>,
+        every: i32,
+        label: &str,
+    ) -> Self {
         let values = values.filter(|value| *value > 0.0 && value.is_finite());
         let [low, high] = range(values.map(f_log10)).unwrap_or([0.0, 1.0]);
         let (low, high) = (low.floor() as i32, high.ceil() as i32);
@@ -154,7 +158,7 @@ impl Axis {
     }
 
     /// Labels 1, 2 and 5 of each decade, for a short logarithmic axis.
-    pub fn label_1_2_5(mut self) -> Self {
+    pub(crate) fn label_1_2_5(mut self) -> Self {
         for tick in &mut self.ticks {
             let (n, power) = decimal_of(tick.at).unwrap_or_default();
             tick.label = [1, 2, 5].contains(&n).then(|| exact(n, power, power));
@@ -170,24 +174,24 @@ impl Axis {
 
     /// Returns the name of its column in data files, with the unit in brackets at the end: as
     /// given, or from the label in plain text. Without one the unit is `1`.
-    pub fn column_name(&self) -> String {
+    pub(crate) fn column_name(&self) -> String {
         let words = self.column.clone().unwrap_or_else(|| spelled(&self.label));
         if words.ends_with(')') && words.contains(" (") { words } else { words + " (1)" }
     }
 
     /// Returns where a value lies on the scale: the value or its logarithm.
-    pub fn position(&self, value: f64) -> f64 {
+    pub(crate) fn position(&self, value: f64) -> f64 {
         if !self.is_log {
             return value;
         }
         if value <= 0.0 { f64::NEG_INFINITY } else { f_log10(value) }
     }
 
-    pub fn value(&self, position: f64) -> f64 {
+    pub(crate) fn value(&self, position: f64) -> f64 {
         if self.is_log { f_exp10(position) } else { position }
     }
 
-    pub fn ends(&self) -> (f64, f64) {
+    pub(crate) fn ends(&self) -> (f64, f64) {
         (self.position(self.lo), self.position(self.hi))
     }
 

@@ -78,11 +78,11 @@ pub enum Element {
 /// A drawing of column width.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Drawing {
-    pub height: u32,
+    pub(crate) height: u32,
     /// From back to front.
-    pub elements: Vec<Element>,
+    pub(crate) elements: Vec<Element>,
     /// Outlines of the glyphs in its labels.
-    pub glyphs: Glyphs,
+    pub(crate) glyphs: Glyphs,
 }
 
 pub(super) type Outcome = Result<(), DrawingErrorKind<Error>>;
@@ -116,7 +116,7 @@ impl Drawing {
     }
 
     /// Returns whether a rectangle is free of lines, symbols and words from left to right.
-    pub fn is_free(&self, frame: Frame) -> bool {
+    pub(crate) fn is_free(&self, frame: Frame) -> bool {
         self.elements.iter().all(|element| match element {
             Element::Shape(path, _, Some(_)) => !crosses(path, frame),
             Element::Label(label) if !label.upwards => !stands_in(label, frame),

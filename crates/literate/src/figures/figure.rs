@@ -12,21 +12,25 @@ pub struct Figure {
     pub title: String,
     /// What readers see, for those who do not see it.
     pub description: Description,
-    pub drawing: Drawing,
+    pub(crate) drawing: Drawing,
     /// Files that are shown instead of the drawing: the ends of their names, and their bytes.
     pub(crate) files: Vec<(&'static str, Vec<u8>)>,
     pub data: Vec<DataFile>,
     /// Path of the item that draws it.
-    pub source: String,
+    pub(crate) source: String,
     /// Names of the experiments whose results it shows.
-    pub experiments: Vec<&'static str>,
+    pub(crate) experiments: Vec<&'static str>,
 }
 
 impl Figure {
     /// Makes a figure of a picture that is not drawn here, from the bytes of its file. A png or jpg
     /// serves all formats; an svg needs a pdf or png for LaTeX besides, and a pdf one of the others
     /// for pages.
-    pub fn picture(files: &[&[u8]], title: &str, description: Description) -> Result<Self, Error> {
+    pub fn picture(
+        files: &[&[u8]],
+        title: &str,
+        description: Description,
+    ) -> Result<Self, Error> {
         let mut figure = Figure { title: title.into(), description, ..Figure::default() };
         for bytes in files {
             let is_svg = std::str::from_utf8(bytes).is_ok_and(|text| text.contains("<svg"));
@@ -50,7 +54,7 @@ impl Figure {
     }
 
     /// Returns the names of the files that pages and LaTeX show.
-    pub fn names(&self) -> [String; 2] {
+    pub(crate) fn names(&self) -> [String; 2] {
         [("pdf", "svg"), ("svg", "pdf")].map(|(not, drawn)| {
             let file = self.files.iter().find(|(format, _)| *format != not);
             format!("{}.{}", self.id, file.map_or(drawn, |(format, _)| format))
@@ -58,7 +62,7 @@ impl Figure {
     }
 
     /// Returns the files of the picture by name; one that is drawn names its licence.
-    pub fn files(&self, license: &str) -> Vec<(String, Vec<u8>)> {
+    pub(crate) fn files(&self, license: &str) -> Vec<(String, Vec<u8>)> {
         if self.files.is_empty() {
             let [svg, pdf] = self.names();
             let license = format!("\n<metadata>{}</metadata>\n<style>", escape(license));
@@ -84,7 +88,7 @@ impl Figure {
     }
 
     /// Returns the picture as an element of a page.
-    pub fn on_page(&self) -> String {
+    pub(crate) fn on_page(&self) -> String {
         if self.files.is_empty() {
             return self.drawing.svg(true, &self.id, &self.title, &self.description.text);
         }

@@ -16,11 +16,11 @@ mod series;
 mod style;
 mod svg;
 
-pub use drawing::{Drawing, Glyphs};
+pub(crate) use drawing::Glyphs;
 pub use error::{Drawn, Error};
 pub use figure::{Description, Figure};
 pub(crate) use markup::plain;
-pub use svg::{escape, outlines};
+pub(crate) use svg::{escape, outlines};
 
 /// What a figure is drawn with, for one line of imports.
 pub mod prelude {

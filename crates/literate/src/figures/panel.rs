@@ -62,7 +62,13 @@ impl Sheet {
     }
 
     /// Adds a panel, its axes and its letter.
-    pub fn lettered(&self, letter: &str, frame: Frame, x: Axis, y: Axis) -> Result<Panel, Error> {
+    pub fn lettered(
+        &self,
+        letter: &str,
+        frame: Frame,
+        x: Axis,
+        y: Axis,
+    ) -> Result<Panel, Error> {
         let panel = self.panel(frame, x, y)?;
         panel.letter(letter)?;
         Ok(panel)
@@ -237,7 +243,13 @@ impl Panel {
 
     /// Names a curve or a symbol in its colour, near a point of the data: `offset` is in
     /// millimetres to the right and down: `(1, 0)` is right of the point, `(0, -1)` above it.
-    pub fn label(&self, text: &str, at: (f64, f64), offset: (i32, i32), colour: RGBColor) -> Drawn {
+    pub fn label(
+        &self,
+        text: &str,
+        at: (f64, f64),
+        offset: (i32, i32),
+        colour: RGBColor,
+    ) -> Drawn {
         let (right, down) = offset;
         let h = match right {
             ..0 => HPos::Right,
@@ -288,7 +300,10 @@ impl Panel {
     }
 
     /// Names curves (name, points, colour) at their right ends; names that would touch move apart.
-    pub fn label_ends<P: AsRef<[(f64, f64)]>>(&self, curves: &[(String, P, RGBColor)]) -> Drawn {
+    pub fn label_ends<P: AsRef<[(f64, f64)]>>(
+        &self,
+        curves: &[(String, P, RGBColor)],
+    ) -> Drawn {
         let mut ends = Vec::new();
         for (text, points, colour) in curves {
             let end = points.as_ref().iter().rfind(|point| self.contains(**point));

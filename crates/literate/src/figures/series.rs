@@ -141,7 +141,13 @@ impl Panel {
     }
 
     /// Draws a curve with symbols at its points.
-    pub fn marked_curve(&self, name: &str, points: Points, line: Stroke, marker: Marker) -> Drawn {
+    pub fn marked_curve(
+        &self,
+        name: &str,
+        points: Points,
+        line: Stroke,
+        marker: Marker,
+    ) -> Drawn {
         self.curve(name, points, line)?;
         self.markers(name, points, marker)
     }
@@ -167,7 +173,13 @@ impl Panel {
 
     /// Draws bars from `low` to `high` at each x, with caps of the given half width. They end at
     /// the frame; where the panel cuts, those outside it are left out.
-    pub fn bars(&self, name: &str, bars: &[(f64, f64, f64)], half: i32, stroke: Stroke) -> Drawn {
+    pub fn bars(
+        &self,
+        name: &str,
+        bars: &[(f64, f64, f64)],
+        half: i32,
+        stroke: Stroke,
+    ) -> Drawn {
         let is_cut = self.outside == Outside::Cut;
         let edge = if is_cut { Outside::Edge } else { self.outside };
         let quiet = self.unrecorded().outside(edge);
@@ -191,7 +203,12 @@ impl Panel {
 
     /// Draws estimates with bars of one standard error. What lies outside the frame is left out,
     /// and bars are cut: a few realisations leave some that are longer than the axis.
-    pub fn estimates(&self, name: &str, estimates: &[(f64, Estimate)], marker: Marker) -> Drawn {
+    pub fn estimates(
+        &self,
+        name: &str,
+        estimates: &[(f64, Estimate)],
+        marker: Marker,
+    ) -> Drawn {
         for ((_, Estimate { error, .. }), row) in estimates.iter().zip(1..) {
             if !(0.0..).contains(error) {
                 return Err(Error::NegativeError { series: spelled(name), row, error: *error });
@@ -209,7 +226,12 @@ impl Panel {
     }
 
     /// Draws estimates with a line through them, cut at the frame.
-    pub fn joined_estimates(&self, name: &str, found: &[(f64, Estimate)], marker: Marker) -> Drawn {
+    pub fn joined_estimates(
+        &self,
+        name: &str,
+        found: &[(f64, Estimate)],
+        marker: Marker,
+    ) -> Drawn {
         let points: Vec<_> = found.iter().map(|(x, y)| (*x, y.value)).collect();
         self.guide(name, &points, marker.2)?;
         self.estimates(name, found, marker)

@@ -25,7 +25,7 @@ pub struct Edition {
 
 impl Edition {
     /// Makes an edition with this title and one document, [`Document::REPORT`].
-    pub fn new(title: &'static str) -> Self {
+    pub(crate) fn new(title: &'static str) -> Self {
         Edition {
             title,
             authors: Vec::new(),

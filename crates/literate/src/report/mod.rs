@@ -8,7 +8,7 @@
 //! 5. [`assemble()`] returns every file as bytes; [`folder`] writes and compares them.
 
 pub(crate) mod assemble;
-pub mod bibliography;
+mod bibliography;
 mod bibtex;
 pub(crate) mod card;
 pub(crate) mod claims;
@@ -17,31 +17,32 @@ pub(crate) mod document;
 pub(crate) mod edition;
 pub(crate) mod error;
 mod filled;
-pub mod filler;
-pub mod folder;
+pub(crate) mod filler;
+pub(crate) mod folder;
 mod html;
 mod input;
-pub mod labels;
-pub mod latex;
-pub mod ledger;
+mod labels;
+mod latex;
+pub(crate) mod ledger;
 pub(crate) mod lint;
 pub(crate) mod mark;
-pub mod markdown;
+mod markdown;
 mod mathml;
-pub mod parse;
+mod parse;
 mod people;
 mod search;
 pub(crate) mod tex;
 mod typed;
-pub mod values;
+pub(crate) mod values;
 
-pub use assemble::{assemble, files_of};
+pub(crate) use assemble::{assemble, files_of};
 pub use edition::{Document, Edition};
-pub use error::Error;
+pub(crate) use error::Error;
 pub use folder::Files;
-pub use input::{Input, LAB};
+pub(crate) use input::Input;
+pub use ledger::EquationEntry;
 pub use mark::framed;
-pub use values::{Registry, Value};
+pub use values::ValueRegistry;
 
 #[cfg(test)]
 mod tests;

@@ -37,13 +37,13 @@ impl Table {
     }
 
     /// Returns where the source makes it: `src/file.rs:12`.
-    pub fn place(&self) -> String {
+    pub(crate) fn place(&self) -> String {
         source_line(self.place)
     }
 
     /// Returns the cell with this address, in which `first` and `last` may stand for values of a
     /// key, or `None` if there is no such cell.
-    pub fn cell(&self, address: &str) -> Option<&Value> {
+    pub(crate) fn cell(&self, address: &str) -> Option<&Value> {
         if ["=first", "=last"].iter().any(|end| address.contains(end)) {
             let (row, column) = address.strip_prefix(self.name)?.rsplit_once("].")?;
             return self.rows_by_name().get(row.strip_prefix('[')?)?.get(column).copied();
@@ -104,7 +104,12 @@ impl Table {
     /// Returns the points (x, y) of two columns, in the order of the rows, without rows that lack
     /// one of the numbers.
     #[track_caller]
-    pub fn curve(&self, keys: Keys<'_>, x: &str, y: &str) -> Result<Vec<(f64, f64)>, Missing> {
+    pub fn curve(
+        &self,
+        keys: Keys<'_>,
+        x: &str,
+        y: &str,
+    ) -> Result<Vec<(f64, f64)>, Missing> {
         let series = self.series(keys, x, y)?;
         Ok(series.into_iter().map(|(x, estimate)| (x, estimate.value)).collect())
     }
@@ -132,7 +137,7 @@ impl Table {
 
     /// Returns the values of a key as addresses write them, without repetitions, in the order of
     /// the rows.
-    pub fn key_values(&self, key: &str) -> Vec<String> {
+    pub(crate) fn key_values(&self, key: &str) -> Vec<String> {
         let index = self.keys().position(|name| name == key);
         let cells = self.rows.iter().filter_map(|(_, cells)| cells.get(index?));
         without_repeats(cells.map(|cell| key_to_text(&cell.number)))
@@ -178,18 +183,18 @@ impl Table {
         self
     }
 
-    pub fn keys(&self) -> impl Iterator<Item = &'static str> {
+    pub(crate) fn keys(&self) -> impl Iterator<Item = &'static str> {
         self.names().take(self.keys)
     }
 
-    pub fn rows(&self) -> impl Iterator<Item = &str> {
+    pub(crate) fn rows(&self) -> impl Iterator<Item = &str> {
         self.rows.iter().map(|(name, _)| name.as_str())
     }
 
     /// Returns the rows, as cells by the names of columns, by every name that a template can give
     /// to a row: `key=value` for each key, where `first` and `last` stand for the first and the
     /// last value. A row without keys has the empty name.
-    pub fn rows_by_name(&self) -> BTreeMap<String, BTreeMap<&'static str, &Value>> {
+    pub(crate) fn rows_by_name(&self) -> BTreeMap<String, BTreeMap<&'static str, &Value>> {
         let mut rows = BTreeMap::new();
         let keys: Vec<_> = self.keys().map(|key| (key, self.key_values(key))).collect();
         for (_, cells) in &self.rows {

@@ -1,6 +1,8 @@
 //! A report of one document that uses everything, and everything that can be wrong with it.
 
 mod broken;
+mod damage;
+mod damaged;
 mod data;
 mod documents;
 
@@ -12,6 +14,7 @@ use crate::project::Project;
 use crate::prose::Templates;
 use crate::source::toy;
 use crate::table::{DataFile, Table, Tables};
+use crate::value::Value;
 use impact_numerics::estimates::with_error;
 use std::sync::Arc;
 
@@ -77,7 +80,7 @@ struct Given {
 
 impl Given {
     fn made(self) -> Result<Files, Error> {
-        let mut values = Registry::default();
+        let mut values = ValueRegistry::default();
         values.add(Value::integer("half_height", with_error(0.11652, 0.0004)))?;
         values.add(Value::real("tiny", -8.87e-4, 3))?;
         values.add(Value::real("least", 1e-9, 1))?;
@@ -143,7 +146,7 @@ report.html => You run <em>them</em>.
 lab.js => end();"##;
     has(&with, parts);
     assert!(!file(&without, "report.html").contains("You run"));
-    assert!(!without.contains_key(LAB));
+    assert!(!without.contains_key(input::LAB));
     for report in [&mut with, &mut without] {
         report.retain(|path, _| !folder::is_generated(path));
     }
