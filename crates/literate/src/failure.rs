@@ -1,7 +1,7 @@
 //! Turns any error into a message and an exit code.
 
 use crate::claims::{self, PublishedError};
-use crate::experiments::Error;
+use crate::experiments::{Error, Fault};
 use crate::input::{one_line, remedy};
 use crate::prose;
 use crate::report::{self, folder};
@@ -51,8 +51,8 @@ impl<E: std::error::Error + 'static> From<E> for Failure {
             _ => any.downcast_ref::<Error>(),
         };
         let code = match run {
-            Some(Error::Interrupted) => INTERRUPTED,
-            Some(Error::Store { .. } | Error::Input { .. }) => 2,
+            Some(Error(Fault::Interrupted)) => INTERRUPTED,
+            Some(Error(Fault::Store { .. }) | Error(Fault::Input { .. })) => 2,
             _ if any.is::<folder::Error>() || any.is::<prose::Error>() => 2,
             _ if any.is::<PublishedError>() => 2,
             _ if matches!(judged, Some(claims::Error::Published(_))) => 2,

@@ -12,6 +12,7 @@ use std::sync::RwLock;
 /// MiB at most of a file that is read whole. A scenario of a million masses has less.
 pub const MOST: u64 = 64;
 
+/// Reads text, as UTF-8, from something that is open.
 pub fn read_from(file: impl Read) -> Result<String, Error> {
     decode(read_bounded(file)?)
 }
@@ -191,6 +192,7 @@ const PLAIN: [(&str, &str); 11] = [
     ("cannot parse integer from empty string", WHOLE),
 ];
 
+/// Puts words of users in place of those of parsers, as "a whole number" for `usize`.
 pub fn in_plain_words(message: &str) -> String {
     let put = |line: String, (theirs, ours): &(&str, &str)| line.replace(theirs, ours);
     PLAIN.iter().fold(message.into(), put)

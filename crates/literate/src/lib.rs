@@ -29,6 +29,7 @@
 //! ```
 
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+#![deny(missing_docs)]
 
 mod build;
 pub mod claims;

@@ -14,16 +14,19 @@ use serde_json::Value as Json;
 use std::collections::{BTreeMap, BTreeSet};
 use std::panic::Location;
 
+/// A figure of the paper before it is drawn.
 #[derive(Clone, Copy)]
 pub struct FigureSpec {
     /// Its name; its picture is `figures/NAME.svg`.
     pub name: &'static str,
+    /// The experiments whose results it shows.
     pub needs: &'static [&'static dyn AnyExperiment],
     pub(crate) draw: fn(&Results) -> Result<Figure, figures::Error>,
     place: &'static Location<'static>,
 }
 
 impl FigureSpec {
+    /// Lists a figure with its name, what it needs, and the function that draws it.
     #[track_caller]
     pub const fn new(
         name: &'static str,
@@ -33,6 +36,7 @@ impl FigureSpec {
         FigureSpec { name, needs, draw, place: Location::caller() }
     }
 
+    /// Draws it from results, and names its files; it is an error if it cannot be drawn.
     pub fn figure(&self, results: &Results) -> Result<Figure, Failure> {
         let named = |error| Failure::from(error).in_context(format!("figure {}", self.name));
         let mut figure = (self.draw)(results).map_err(named)?;
@@ -67,19 +71,27 @@ pub type Rows = fn(&Results, &[Check]) -> Result<BTreeMap<&'static str, Json>, F
 /// Makes `lab.js`, which a page loads to compute, or returns `None` if it cannot be made here.
 pub type Lab = fn(&Session<'_>, &Results) -> Result<Option<String>, Failure>;
 
+/// A paper: all that it is made of.
 pub struct Paper {
+    /// Title, authors and documents.
     pub edition: Edition,
+    /// Its source, and the files that it reads.
     pub project: Project,
     /// Folder of the prose, from the top of the project.
     pub prose: &'static str,
     /// All experiments, in the order in which they run.
     pub experiments: Vec<&'static dyn AnyExperiment>,
+    /// Tables that need results of several experiments.
     pub derived: Vec<DerivedTables>,
+    /// All figures, in their order.
     pub figures: Vec<FigureSpec>,
     /// How each statement of `published.toml` is judged, and relations between numbers.
     pub rules: Vec<Rule>,
+    /// Values that stand in no table.
     pub values: Vec<MakeValues>,
+    /// Rows of generated tables, or `None` for no such tables.
     pub rows: Option<Rows>,
+    /// What readers can run on a page, or `None` for nothing.
     pub lab: Option<Lab>,
 }
 
@@ -100,16 +112,19 @@ impl Paper {
         }
     }
 
+    /// Adds an author with an affiliation, which may be empty.
     pub fn author(mut self, name: &'static str, affiliation: &'static str) -> Self {
         self.edition.authors.push((name, affiliation));
         self
     }
 
+    /// Adds an experiment, which runs after those before it.
     pub fn experiment(mut self, experiment: &'static dyn AnyExperiment) -> Self {
         self.experiments.push(experiment);
         self
     }
 
+    /// Adds the rule that judges the statement with this id.
     #[track_caller]
     pub fn check(
         self,
@@ -119,11 +134,13 @@ impl Paper {
         self.rule(Rule::new(id, judge))
     }
 
+    /// Adds a rule.
     pub fn rule(mut self, rule: Rule) -> Self {
         self.rules.push(rule);
         self
     }
 
+    /// Adds a figure with its name, the experiments that it needs, and what draws it.
     #[track_caller]
     pub fn figure(
         mut self,
@@ -186,7 +203,7 @@ mod tests {
 
     #[test]
     fn a_figure_is_found_by_its_name_and_its_number() {
-        let draw = |_: &Results| Err(figures::Error::Drawing(String::new()));
+        let draw = |_: &Results| Err(crate::experiments::Error::input("", "", "").into());
         let paper = Paper::new("toy", toy()).figure("fig03", &[], draw);
         let paper = paper.figure("s01", &[], draw).figure("spread", &[], draw);
         paper.check_names().unwrap();

@@ -11,8 +11,10 @@ use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
 
+/// The source of a program, and the folder in which it is developed.
 #[derive(Debug)]
 pub struct Project {
+    /// The source as it was compiled.
     pub sources: Sources,
     /// Paths and texts of what it reads when it runs; empty unless it travels alone.
     pub copy: &'static [(&'static str, &'static str)],
@@ -30,6 +32,7 @@ pub(crate) fn is_in(path: &str, place: &str) -> bool {
 }
 
 impl Project {
+    /// Makes a project in which all code counts for each result.
     pub fn new(sources: Sources) -> Self {
         Project { sources, copy: &[], apart: &[], shared: &[] }
     }

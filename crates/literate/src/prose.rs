@@ -42,6 +42,7 @@ pub enum Error {
     Missing(String),
 }
 
+/// The prose and all that stands with it, by paths within its folder.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Templates {
     files: BTreeMap<String, String>,
@@ -81,6 +82,7 @@ impl Templates {
         Ok(())
     }
 
+    /// Returns the text of a file; it is an error if there is none.
     pub fn text(&self, path: &str) -> Result<&str, Error> {
         let missing = || Error::Missing(path.to_string());
         self.files.get(path).map(String::as_str).ok_or_else(missing)
@@ -91,6 +93,7 @@ impl Templates {
         format!("{}{path}", self.folder)
     }
 
+    /// Returns the paths and texts of all files.
     pub fn iter(&self) -> impl Iterator<Item = (&str, &str)> {
         self.files.iter().map(|(path, text)| (path.as_str(), text.as_str()))
     }

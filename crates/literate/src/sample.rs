@@ -24,6 +24,7 @@ impl Sample {
     }
 }
 
+/// An estimate that knows how many values it is from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sampled {
     pub(crate) estimate: Estimate,

@@ -3,7 +3,9 @@
 /// The source of a program, as it was compiled.
 #[derive(Clone, Copy, Debug)]
 pub struct Sources {
+    /// Name of the program.
     pub name: &'static str,
+    /// Version of the program.
     pub version: &'static str,
     /// Path of each file from the folder of its Cargo.toml, and its text.
     pub files: &'static [(&'static str, &'static str)],

@@ -10,6 +10,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 use std::collections::BTreeSet;
 use std::sync::{Mutex, PoisonError};
 
+/// A number as it is shown, or words.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Number {
@@ -18,8 +19,11 @@ pub enum Number {
     None,
     /// An exact integer of at most 64 bits, with a sign or without.
     Integer(i128),
+    /// A real number.
     Real {
+        /// The number.
         value: f64,
+        /// What decides its printed digits.
         digits: Digits,
     },
     /// Words, for the few values that are not numbers (a version, a profile, a list).
@@ -134,7 +138,7 @@ impl<'de> Deserialize<'de> for Written {
 
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Provenance {
+pub(crate) enum Provenance {
     /// An integer or a text that follows without rounding, or a parameter that was chosen.
     #[default]
     Exact,
@@ -152,6 +156,7 @@ pub enum Provenance {
     Measured,
 }
 
+/// A number with its unit, kind and origin.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Value {
     /// The name: `version` is `«v.version»`, and `printed.threshold` is `«printed.threshold»`.
@@ -176,6 +181,7 @@ impl Value {
         Value { id: id.into(), number, kind, ..Value::default() }
     }
 
+    /// Makes an exact number, printed with all its digits.
     pub fn integer(id: impl Into<String>, n: impl Into<Number>) -> Self {
         Value::new(id, n.into(), Provenance::Exact)
     }
@@ -186,6 +192,7 @@ impl Value {
         Value::new(id, Number::Real { value, digits }, Provenance::Deterministic)
     }
 
+    /// Makes a value that is words.
     pub fn words(id: impl Into<String>, words: impl Into<String>) -> Self {
         Value::new(id, Number::Text(words.into()), Provenance::Exact)
     }
@@ -205,6 +212,7 @@ impl Value {
         Value::new(id, number, Provenance::Printed { place: place.into() })
     }
 
+    /// Sets the item that computed it.
     pub fn source(mut self, item: Origin) -> Self {
         self.source = item.0;
         self
@@ -235,6 +243,7 @@ impl Value {
     }
 }
 
+/// The path of the item that computed a number.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Origin(pub(crate) String);
 

@@ -3,13 +3,16 @@
 use super::text::Text;
 use serde::{Deserialize, Serialize};
 
+/// What a check judges.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {
+    /// Something that was printed.
     #[default]
     Statement,
     /// A definition of words or symbols that was printed: it is judged, and no score counts it.
     Definition,
+    /// A relation between numbers of the paper itself.
     Relation,
 }
 
@@ -29,8 +32,10 @@ macro_rules! words {
         }
 
         impl $name {
+            /// All of them, in this order.
             pub const ALL: [$name; [$($text),*].len()] = [$($name::$variant),*];
 
+            /// Returns it as words that readers see.
             pub fn words(self) -> &'static str {
                 match self {
                     $($name::$variant => $text,)*
@@ -67,6 +72,7 @@ words! {
     DiffersAndExplained = "differs and explained",
     /// It does not, or our explanation of a difference fails.
     Differs = "differs",
+    /// The results do not decide it.
     #[default]
     CannotBeJudged = "cannot be judged",
 }
@@ -86,6 +92,7 @@ impl Verdict {
 /// A statement or relation, judged; texts are saved as they are printed.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Check {
+    /// What it judges.
     pub kind: Kind,
     /// The author's word for a difference that is explained, such as `misprint`.
     #[serde(default, skip_serializing_if = "String::is_empty")]
@@ -93,6 +100,7 @@ pub struct Check {
     /// The sentence of which it is one reading of several; empty if it is the only one.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub(crate) sentence: String,
+    /// The id of its statement or relation.
     pub id: String,
     /// Where it was printed; empty for a relation.
     pub(crate) place: String,
@@ -104,7 +112,9 @@ pub struct Check {
     /// How far from the printed value a result may lie.
     pub(crate) tolerance: Text,
     pub(crate) reason: String,
+    /// What the verdict rests on.
     pub basis: Basis,
+    /// What the numbers say.
     pub verdict: Verdict,
     /// What explains a difference, or what else a reader should know.
     pub note: Text,
@@ -135,6 +145,7 @@ impl Check {
         Check { tolerance: tolerance.into(), reason: reason.into(), ..self }
     }
 
+    /// Sets the note, a sentence that readers see beside the verdict.
     pub fn note(self, note: impl Into<Text>) -> Check {
         Check { note: note.into(), ..self }
     }

@@ -9,6 +9,7 @@ pub const FAMILY_LEVEL: f64 = 0.01;
 /// The level of each of several statistical checks, by Šidák's correction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CheckLevel {
+    /// How many statistical checks there are.
     pub claims: usize,
     /// The level of each one, 1 − (1 − [`FAMILY_LEVEL`])^(1/claims).
     pub each: f64,

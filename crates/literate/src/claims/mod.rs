@@ -19,6 +19,7 @@ pub use published::{Published, PublishedError, Statement};
 pub(crate) use rule::check_rules;
 pub use rule::{Rule, ids_blind_to_number, judge_all, level_of};
 pub use text::Text;
+pub(crate) use text::text;
 pub use words::Numbers;
 pub(crate) use words::Words;
 pub use wrong::ids_never_moved;

@@ -8,9 +8,11 @@ use crate::input::{one_line, toml_fault};
 use serde::Deserialize;
 use std::collections::BTreeSet;
 
+/// All that was printed: the entries of `published.toml`.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Published {
+    /// The entries `[[parameter]]`.
     #[serde(rename = "parameter")]
     pub parameters: Vec<Parameter>,
     #[serde(rename = "statement")]
@@ -29,6 +31,7 @@ pub struct Parameter {
     pub(crate) value: f64,
 }
 
+/// An entry `[[statement]]`: something that was printed.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table [[statement]]")]
 pub struct Statement {
@@ -105,11 +108,13 @@ impl Published {
         Ok(published)
     }
 
+    /// Returns the statement with this id; it is an error if there is none.
     pub fn statement(&self, id: &str) -> Result<&Statement, PublishedError> {
         let statement = self.statements.iter().find(|statement| statement.id == id);
         statement.ok_or_else(|| PublishedError::missing("statement", id))
     }
 
+    /// Returns the number of the parameter with this id; it is an error if there is none.
     pub fn parameter(&self, id: &str) -> Result<f64, PublishedError> {
         let parameter = self.parameters.iter().find(|parameter| parameter.id == id);
         parameter.map(|one| one.value).ok_or_else(|| PublishedError::missing("parameter", id))
@@ -204,6 +209,7 @@ impl Statement {
         }
     }
 
+    /// Returns the printed number; it is an error if there is none.
     pub fn number(&self) -> Result<f64, PublishedError> {
         self.value.ok_or_else(|| {
             let remedy = "write it as `value`, with `decimals`, as many as were printed";
@@ -212,6 +218,7 @@ impl Statement {
         })
     }
 
+    /// Returns half a unit of the last printed digit.
     pub fn half_unit(&self) -> f64 {
         0.5 * power_of_ten(-self.decimals.unwrap_or(0))
     }

@@ -8,11 +8,14 @@ use super::text::Text;
 use crate::experiments::{Profile, Results};
 use std::panic::Location;
 
+/// How a statement or a relation is judged.
 pub struct Rule {
+    /// The id of what it judges.
     pub id: &'static str,
     /// What it says, if it judges a relation between numbers and nothing that was printed.
     relation: Option<&'static str>,
     reads: Option<&'static str>,
+    /// Ids and numbers of the parameters that it judges with.
     pub uses: Vec<(&'static str, f64)>,
     basis: Option<Basis>,
     is_statistical: bool,
@@ -69,6 +72,7 @@ impl Rule {
         Rule { may_stay_open: true, ..self }
     }
 
+    /// Returns whether it judges something that was printed, and not a relation.
     pub fn is_of_statement(&self) -> bool {
         self.relation.is_none()
     }
@@ -117,6 +121,7 @@ impl Rule {
     }
 }
 
+/// Returns the level at which each statistical check among these rules is made.
 pub fn level_of(rules: &[Rule]) -> CheckLevel {
     CheckLevel::for_checks(rules.iter().filter(|rule| rule.is_statistical).count())
 }
@@ -152,7 +157,7 @@ impl<'a> Judge<'a> {
         let is_strict = results.profile == Profile::Full && !rule.may_stay_open;
         let level = Some(level).filter(|_| allows_errors);
         let judged = rule.judged(&Evidence { statement, results, published, level, is_strict });
-        judged.map_err(|error| Error::Check { id: rule.id.into(), error: Box::new(error) })
+        judged.map_err(|error| Error::Check(rule.id.into(), Box::new(error)))
     }
 }
 
@@ -201,8 +206,8 @@ pub fn ids_blind_to_number(
 mod tests {
     use super::*;
     use crate::claims::ids_never_moved;
+    use crate::claims::text;
     use crate::table::Table;
-    use crate::text;
     use impact_numerics::statistics::Estimate;
     use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 

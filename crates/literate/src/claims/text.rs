@@ -6,17 +6,18 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// Makes a [`Text`] of a sentence with `{}` for each number, and `{:3}` for three digits of it.
-#[macro_export]
 macro_rules! text {
     ($sentence:expr $(, $number:expr)* $(,)?) => {
         $crate::claims::Text::from_sentence($sentence, [$($crate::value::Number::from($number)),*])
     };
 }
 
+pub(crate) use text;
+
 /// A short text with numbers in it; its words are [`Number::Text`].
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(into = "String", from = "String")]
-pub struct Text(pub Vec<Number>);
+pub struct Text(pub(crate) Vec<Number>);
 
 impl Text {
     /// Fills the marks of a sentence, `{share}`, or `{share:2}` for two digits, with the numbers
@@ -44,6 +45,7 @@ impl Text {
         Text::fill(sentence, |_| numbers.next()).unwrap_or_default()
     }
 
+    /// Returns the text with more at its end.
     pub fn then(mut self, more: impl Into<Text>) -> Text {
         self.0.extend(more.into().0);
         self

@@ -17,6 +17,7 @@ macro_rules! numbers {
     };
 }
 
+/// Numbers with the names by which texts call them: what [`numbers!`](crate::numbers) makes.
 pub type Numbers<'a> = &'a [(&'a str, Number)];
 
 /// The texts that a rule fills; pieces of them have a name that begins so: `note_open`.

@@ -57,15 +57,13 @@ enum Verb<V: Subcommand> {
 enum None {}
 
 impl Paper {
+    /// Runs the command line of the program; what it returns is the exit code.
     pub fn cli(self) -> ExitCode {
         self.cli_with(|none: None| match none {})
     }
 
     /// The same with more verbs, and what each of them does.
-    pub fn cli_with<V: Subcommand>(
-        self,
-        more: impl FnOnce(V) -> Result<(), Failure>,
-    ) -> ExitCode {
+    pub fn cli_with<V: Subcommand>(self, more: impl FnOnce(V) -> Result<(), Failure>) -> ExitCode {
         std::panic::set_hook(Box::new(terminal::report_panic));
         let run = || self.run_with(std::env::args_os().collect(), more);
         // The hook has said what went wrong.

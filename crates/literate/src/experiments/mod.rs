@@ -15,6 +15,7 @@ mod store;
 
 pub use command::Command;
 pub use error::Error;
+pub(crate) use error::Fault;
 pub use experiment::{AnyExperiment, AnyResult, Experiment};
 pub(crate) use process::end_all;
 pub use profile::Profile;

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+/// The sizes of samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
 #[serde(rename_all = "lowercase")]
 pub enum Profile {

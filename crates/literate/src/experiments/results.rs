@@ -2,7 +2,7 @@
 
 use super::progress::say;
 use super::store::{Identity, Json};
-use super::{AnyExperiment, AnyResult, Command, Error, Experiment, Profile, Session};
+use super::{AnyExperiment, AnyResult, Command, Error, Experiment, Fault, Profile, Session};
 use crate::input::count;
 use crate::names::{self, Names};
 use crate::table::{Table, Tables, find_cell, find_number, find_table, table_name};
@@ -16,6 +16,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 /// was not run.
 pub type DerivedTables = fn(&Results, &[Table]) -> Option<Vec<Table>>;
 
+/// The results of experiments, and the tables that are made of them.
 pub struct Results {
     pub(crate) profile: Profile,
     results: Vec<(&'static dyn AnyExperiment, AnyResult)>,
@@ -28,9 +29,10 @@ pub struct Results {
 }
 
 impl Results {
+    /// Returns the result of an experiment; it is an error if that was not run.
     pub fn of<P, T: Json, U>(&self, experiment: &Experiment<P, T, U>) -> Result<&T, Error> {
         self.note(experiment.name);
-        self.result(experiment.name)?.downcast_ref().ok_or(Error::NotRun(experiment.name))
+        self.result(experiment.name)?.downcast_ref().ok_or(Error(Fault::NotRun(experiment.name)))
     }
 
     fn note(&self, name: &str) {
@@ -76,14 +78,11 @@ impl Results {
     fn result(&self, name: &'static str) -> Result<&AnyResult, Error> {
         let mut results = self.results.iter();
         let pair = results.find(|(experiment, _)| experiment.name() == name);
-        pair.map(|(_, result)| result).ok_or(Error::NotRun(name))
+        pair.map(|(_, result)| result).ok_or(Error(Fault::NotRun(name)))
     }
 
     /// Returns the result of an experiment for a test to change; tables are made anew.
-    pub fn get_mut<P, T: Json, U>(
-        &mut self,
-        experiment: &Experiment<P, T, U>,
-    ) -> Option<&mut T> {
+    pub fn get_mut<P, T: Json, U>(&mut self, experiment: &Experiment<P, T, U>) -> Option<&mut T> {
         self.tables = OnceLock::new();
         let (_, result) = self.results.iter_mut().find(|(one, _)| one.name() == experiment.name)?;
         Arc::get_mut(result)?.downcast_mut()
@@ -97,7 +96,7 @@ impl Results {
                 results.flat_map(|(experiment, result)| tables(*experiment, result)).collect(),
             )
         };
-        self.tables.get_or_init(again).as_ref().map_err(|fault| Error::Table(fault.clone()))
+        self.tables.get_or_init(again).as_ref().map_err(|fault| Error(Fault::Table(fault.clone())))
     }
 
     #[cfg(test)]
@@ -132,12 +131,14 @@ impl Results {
         Ok(tables)
     }
 
+    /// Returns a table by its name, `experiment.table`; it is an error if there is none.
     #[track_caller]
     pub fn table(&self, name: &str) -> Result<&Table, Error> {
         self.note(name);
         Ok(find_table(self.tables()?, name)?)
     }
 
+    /// Returns the bytes of a file that a command lists in `writes`.
     pub fn file(&self, command: &Command, path: &str) -> Result<Vec<u8>, Error> {
         let output = self.result(command.name)?;
         let problem = format!("{} wrote no such file", command.name);

@@ -3,7 +3,7 @@
 //! An axis is a coordinate of plotters: `map` gives the place on the sheet, `key_points` the ticks.
 //! A logarithmic one is linear over log10 of the data, taken with a portable function.
 
-use super::error::Error;
+use super::error::{Error, Fault};
 use super::markup::spelled;
 use crate::decimal::Decimal;
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged};
@@ -15,6 +15,7 @@ use std::ops::Range;
 /// A tick; minor ones have no label.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tick {
+    /// Its value on the axis.
     pub at: f64,
     /// With mark-up.
     pub label: Option<String>,
@@ -26,9 +27,12 @@ impl Tick {
     }
 }
 
+/// An axis: its range, scale, label and ticks.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Axis {
+    /// The value at the left or lower end.
     pub lo: f64,
+    /// The value at the other end.
     pub hi: f64,
     /// Whether the scale is logarithmic; a value that is not positive lies below every range.
     pub is_log: bool,
@@ -110,7 +114,7 @@ impl Axis {
         if is_range && rises && differ && !self.ticks.is_empty() {
             return Ok(());
         }
-        Err(Error::Axis { label: spelled(&self.label), low: self.lo, high: self.hi })
+        Err(Error(Fault::Axis { label: spelled(&self.label), low: self.lo, high: self.hi }))
     }
 
     /// Makes a logarithmic axis from 10^`lo` to 10^`hi`, labelled every `every` decades. If `every`
@@ -133,11 +137,7 @@ impl Axis {
     }
 
     /// Makes a logarithmic axis of the decades that hold all positive values.
-    pub fn decades_around(
-        values: impl Iterator<Item = f64>,
-        every: i32,
-        label: &str,
-    ) -> Self {
+    pub fn decades_around(values: impl Iterator<Item = f64>, every: i32, label: &str) -> Self {
         let values = values.filter(|value| *value > 0.0 && value.is_finite());
         let [low, high] = range(values.map(f_log10)).unwrap_or([0.0, 1.0]);
         let (low, high) = (low.floor() as i32, high.ceil() as i32);
@@ -295,6 +295,7 @@ pub fn in_powers(number: f64) -> String {
     }
 }
 
+/// Writes a power of ten with mark-up, `10^{−3}`.
 pub fn power_of_ten(exponent: i32) -> String {
     format!("10^{{{}}}", exponent.to_string().replace('-', "−"))
 }

@@ -1,20 +1,23 @@
 //! Holds a finished figure: the picture, its description and its data.
 
 use super::drawing::{Drawing, Element};
-use super::error::Error;
+use super::error::{Error, Fault};
 use super::svg::escape;
 use crate::table::DataFile;
 
+/// A finished figure.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Figure {
     /// The id in the list of the paper, with which the names of its files begin.
     pub id: String,
+    /// The title, which the picture carries and lists show.
     pub title: String,
     /// What readers see, for those who do not see it.
     pub description: Description,
     pub(crate) drawing: Drawing,
     /// Files that are shown instead of the drawing: the ends of their names, and their bytes.
     pub(crate) files: Vec<(&'static str, Vec<u8>)>,
+    /// The data that it shows, one file for each panel.
     pub data: Vec<DataFile>,
     /// Path of the item that draws it.
     pub(crate) source: String,
@@ -26,11 +29,7 @@ impl Figure {
     /// Makes a figure of a picture that is not drawn here, from the bytes of its file. A png or jpg
     /// serves all formats; an svg needs a pdf or png for LaTeX besides, and a pdf one of the others
     /// for pages.
-    pub fn picture(
-        files: &[&[u8]],
-        title: &str,
-        description: Description,
-    ) -> Result<Self, Error> {
+    pub fn picture(files: &[&[u8]], title: &str, description: Description) -> Result<Self, Error> {
         let mut figure = Figure { title: title.into(), description, ..Figure::default() };
         for bytes in files {
             let is_svg = std::str::from_utf8(bytes).is_ok_and(|text| text.contains("<svg"));
@@ -39,16 +38,20 @@ impl Figure {
                 [0xff, 0xd8, 0xff, ..] => "jpg",
                 [b'%', b'P', b'D', b'F', ..] => "pdf",
                 _ if is_svg => "svg",
-                _ => return Err(Error::Picture("is not a png, jpg, svg or pdf".into())),
+                _ => return Err(Error(Fault::Picture("is not a png, jpg, svg or pdf".into()))),
             };
             figure.files.push((format, bytes.to_vec()));
         }
         let is_all = |format| figure.files.iter().all(|file| file.0 == format);
         if is_all("pdf") {
-            return Err(Error::Picture("cannot be shown on pages; add an svg, png or jpg".into()));
+            return Err(Error(Fault::Picture(
+                "cannot be shown on pages; add an svg, png or jpg".into(),
+            )));
         }
         if is_all("svg") {
-            return Err(Error::Picture("cannot be shown in LaTeX; add a pdf, png or jpg".into()));
+            return Err(Error(Fault::Picture(
+                "cannot be shown in LaTeX; add a pdf, png or jpg".into(),
+            )));
         }
         Ok(figure)
     }
@@ -83,6 +86,7 @@ impl Figure {
         drawn.chain([self.title.as_str()])
     }
 
+    /// Returns the picture as a file of its own.
     pub fn svg(&self) -> String {
         self.drawing.svg(false, &self.id, &self.title, &self.description.text) + "\n"
     }
@@ -100,6 +104,7 @@ impl Figure {
 /// What readers see in a figure, in words.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Description {
+    /// The words.
     pub text: String,
 }
 

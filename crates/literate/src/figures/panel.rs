@@ -5,7 +5,7 @@
 use super::axis::{Axis, Tick};
 use super::drawing::{Drawing, Frame};
 use super::elements::CustomElement;
-use super::error::{Drawn, Error};
+use super::error::{Drawn, Error, Fault};
 use super::figure::{Description, Figure};
 use super::font;
 use super::markup::spelled;
@@ -27,6 +27,7 @@ pub type SheetArea = DrawingArea<Drawing, Shift>;
 
 /// A figure in the making.
 pub struct Sheet {
+    /// The whole sheet.
     pub area: SheetArea,
     drawing: Rc<RefCell<Drawing>>,
     records: RefCell<Vec<Rc<RefCell<Record>>>>,
@@ -62,13 +63,7 @@ impl Sheet {
     }
 
     /// Adds a panel, its axes and its letter.
-    pub fn lettered(
-        &self,
-        letter: &str,
-        frame: Frame,
-        x: Axis,
-        y: Axis,
-    ) -> Result<Panel, Error> {
+    pub fn lettered(&self, letter: &str, frame: Frame, x: Axis, y: Axis) -> Result<Panel, Error> {
         let panel = self.panel(frame, x, y)?;
         panel.letter(letter)?;
         Ok(panel)
@@ -100,8 +95,11 @@ pub enum Outside {
 pub struct Panel {
     /// The panel as a drawing area of plotters, in units of the data.
     pub area: DrawingArea<Drawing, Cartesian2d<Axis, Axis>>,
+    /// Where it stands on the sheet.
     pub frame: Frame,
+    /// The horizontal axis.
     pub x: Axis,
+    /// The vertical axis.
     pub y: Axis,
     drawing: Rc<RefCell<Drawing>>,
     pub(super) record: Rc<RefCell<Record>>,
@@ -109,6 +107,7 @@ pub struct Panel {
     pub(super) outside: Outside,
 }
 
+/// The names of the panels of a figure.
 pub const LETTERS: [&str; 6] = ["(a)", "(b)", "(c)", "(d)", "(e)", "(f)"];
 
 const TICK: i32 = 85;
@@ -243,13 +242,7 @@ impl Panel {
 
     /// Names a curve or a symbol in its colour, near a point of the data: `offset` is in
     /// millimetres to the right and down: `(1, 0)` is right of the point, `(0, -1)` above it.
-    pub fn label(
-        &self,
-        text: &str,
-        at: (f64, f64),
-        offset: (i32, i32),
-        colour: RGBColor,
-    ) -> Drawn {
+    pub fn label(&self, text: &str, at: (f64, f64), offset: (i32, i32), colour: RGBColor) -> Drawn {
         let (right, down) = offset;
         let h = match right {
             ..0 => HPos::Right,
@@ -300,19 +293,16 @@ impl Panel {
     }
 
     /// Names curves (name, points, colour) at their right ends; names that would touch move apart.
-    pub fn label_ends<P: AsRef<[(f64, f64)]>>(
-        &self,
-        curves: &[(String, P, RGBColor)],
-    ) -> Drawn {
+    pub fn label_ends<P: AsRef<[(f64, f64)]>>(&self, curves: &[(String, P, RGBColor)]) -> Drawn {
         let mut ends = Vec::new();
         for (text, points, colour) in curves {
             let end = points.as_ref().iter().rfind(|point| self.contains(**point));
-            let end = end.ok_or_else(|| Error::Empty(spelled(text)))?;
+            let end = end.ok_or_else(|| Error(Fault::Empty(spelled(text))))?;
             ends.push((self.area.map_coordinate(end), text, *colour));
         }
         let heights: Vec<i32> = ends.iter().map(|(at, ..)| at.1).collect();
         let rows = (self.frame.top, self.frame.bottom);
-        let places = spread(&heights, LINE_HEIGHT, rows).ok_or(Error::NoRoom(ends.len()))?;
+        let places = spread(&heights, LINE_HEIGHT, rows).ok_or(Error(Fault::NoRoom(ends.len())))?;
         for (((x, _), text, colour), y) in ends.into_iter().zip(places) {
             let style = rimmed(SMALL, colour, HPos::Left, VPos::Center);
             self.text_on_sheet(text, (x + 100, y), style)?;

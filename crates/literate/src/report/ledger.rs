@@ -27,14 +27,19 @@ pub struct FigureEntry {
     pub(crate) experiments: Vec<String>,
 }
 
+/// A numbered equation, and where the source has it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EquationEntry {
+    /// Its number.
     pub number: u32,
+    /// The number of its section.
     pub section: u32,
     /// All digits of its formula, which the prose must have too.
     #[serde(skip)]
     pub digits: Option<&'static str>,
+    /// What it gives, in words.
     pub what: String,
+    /// Path of the item that computes it.
     pub home: String,
     /// The equation that the home leads to, where coding this one would be pointless.
     #[serde(default, skip_serializing_if = "Option::is_none")]

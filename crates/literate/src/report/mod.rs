@@ -42,7 +42,7 @@ pub use folder::Files;
 pub(crate) use input::Input;
 pub use ledger::EquationEntry;
 pub use mark::framed;
-pub use values::ValueRegistry;
+pub(crate) use values::ValueRegistry;
 
 #[cfg(test)]
 mod tests;

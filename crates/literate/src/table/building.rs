@@ -123,6 +123,7 @@ impl<'a, R> Building<'a, R> {
         self.chosen(name, unit, "", get)
     }
 
+    /// Adds a key of words.
     pub fn text_key<F: Fn(&R) -> String>(mut self, name: &'static str, get: F) -> Self {
         self.count_key(name);
         self.words(name, "", get)
@@ -163,6 +164,7 @@ impl<'a, R> Building<'a, R> {
         })
     }
 
+    /// Adds a column of words.
     pub fn words<W: Into<Number>, F: Fn(&R) -> W>(
         self,
         name: &'static str,

@@ -49,12 +49,14 @@ fn to_cell(number: &Number) -> String {
     }
 }
 
+/// A data file, as text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DataFile {
     /// File name, such as `fig09a.csv`.
     pub name: String,
     /// Column names with units, such as `sigma (d omega^2)`; 1 stands for a pure number.
     pub header: Vec<String>,
+    /// The cells of each row.
     pub rows: Vec<Vec<String>>,
 }
 

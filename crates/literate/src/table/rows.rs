@@ -8,6 +8,7 @@ use impact_numerics::statistics::Estimate;
 use std::collections::BTreeMap;
 use std::panic::Location;
 
+/// Rows that keys name, and columns.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
     pub(super) name: &'static str,
@@ -28,6 +29,7 @@ pub(super) struct Column {
     pub(super) unit: &'static str,
 }
 
+/// Names of keys and their values, which choose rows.
 pub type Keys<'a> = &'a [(&'a str, f64)];
 
 impl Table {
@@ -104,12 +106,7 @@ impl Table {
     /// Returns the points (x, y) of two columns, in the order of the rows, without rows that lack
     /// one of the numbers.
     #[track_caller]
-    pub fn curve(
-        &self,
-        keys: Keys<'_>,
-        x: &str,
-        y: &str,
-    ) -> Result<Vec<(f64, f64)>, Missing> {
+    pub fn curve(&self, keys: Keys<'_>, x: &str, y: &str) -> Result<Vec<(f64, f64)>, Missing> {
         let series = self.series(keys, x, y)?;
         Ok(series.into_iter().map(|(x, estimate)| (x, estimate.value)).collect())
     }

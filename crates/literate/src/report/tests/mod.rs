@@ -62,9 +62,10 @@ fn figure() -> Figure {
 }
 
 fn claim(id: &'static str) -> Check {
-    let result = crate::text!("{}", with_error(0.11652, 0.0004));
+    let result = crate::claims::text!("{}", with_error(0.11652, 0.0004));
     let check = Check::new(Kind::Statement, id, "A threshold | in [xx, {yy}^zz] @ exists", result);
-    let mut judged = check.judged(true).with_tolerance(crate::text!("{:1}", 0.005), "half a unit");
+    let mut judged =
+        check.judged(true).with_tolerance(crate::claims::text!("{:1}", 0.005), "half a unit");
     (judged.place, judged.expected) = ("Sec. 2".into(), "σ ≈ 0.12".into());
     judged
 }
