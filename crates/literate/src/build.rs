@@ -84,11 +84,7 @@ impl Paper {
         Ok(checks)
     }
 
-    pub(crate) fn registry(
-        &self,
-        results: &Results,
-        published: &Published,
-    ) -> Result<ValueRegistry, Failure> {
+    fn registry(&self, results: &Results, published: &Published) -> Result<ValueRegistry, Failure> {
         let mut registry = ValueRegistry::default();
         registry.extend(printed_values(published))?;
         let profile = Value::words("profile", results.profile.name());

@@ -69,9 +69,9 @@ pub mod value;
 
 pub use build::make_report;
 pub use failure::{Failure, INTERRUPTED};
-pub use impact_numerics::{double_double, estimates, random, statistics};
+pub use impact_numerics::double_double;
 pub use literate_sources::{sources, texts};
-pub use paper::{FigureSpec, Lab, MakeValues, Paper, Rows};
+pub use paper::{FigureSpec, Paper};
 pub use project::Project;
 pub use prose::Templates;
 pub use sample::Sampled;

@@ -62,15 +62,6 @@ impl FigureSpec {
     }
 }
 
-/// Makes values that the prose may use like the cells of tables.
-pub type MakeValues = fn(&Results, &Published) -> Result<Vec<Value>, Failure>;
-
-/// Makes rows of tables that are neither values nor checks, by the names that the prose uses.
-pub type Rows = fn(&Results, &[Check]) -> Result<BTreeMap<&'static str, Json>, Failure>;
-
-/// Makes `lab.js`, which a page loads to compute, or returns `None` if it cannot be made here.
-pub type Lab = fn(&Session<'_>, &Results) -> Result<Option<String>, Failure>;
-
 /// A paper: all that it is made of.
 pub struct Paper {
     /// Title, authors and documents.
@@ -87,12 +78,12 @@ pub struct Paper {
     pub figures: Vec<FigureSpec>,
     /// How each statement of `published.toml` is judged, and relations between numbers.
     pub rules: Vec<Rule>,
-    /// Values that stand in no table.
-    pub values: Vec<MakeValues>,
-    /// Rows of generated tables, or `None` for no such tables.
-    pub rows: Option<Rows>,
-    /// What readers can run on a page, or `None` for nothing.
-    pub lab: Option<Lab>,
+    /// Make values that the prose may use like the cells of tables.
+    pub values: Vec<fn(&Results, &Published) -> Result<Vec<Value>, Failure>>,
+    /// Makes rows of tables that are neither values nor checks, by the names that the prose uses.
+    pub rows: Option<fn(&Results, &[Check]) -> Result<BTreeMap<&'static str, Json>, Failure>>,
+    /// Makes `lab.js`, which a page loads to compute, or returns `None` if it cannot be made here.
+    pub lab: Option<fn(&Session<'_>, &Results) -> Result<Option<String>, Failure>>,
 }
 
 impl Paper {

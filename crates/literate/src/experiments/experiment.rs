@@ -29,16 +29,13 @@ pub struct Experiment<P: 'static, T: 'static, U: 'static = ()> {
     pub tables: fn(&T) -> Vec<Table>,
 }
 
-/// Estimates the work of a run, of which a core does [`super::cutting::WORK_PER_SECOND`] in about
-/// a second, so that people know how long they will wait. No result depends on it.
-pub type Work<P> = fn(&P) -> u64;
-
 /// How the result of an experiment is found.
 pub enum How<P, T, U> {
     /// Read from a file that is committed, or known without a run; never saved.
     Read(fn(&Session<'_>) -> Result<T, Error>),
-    /// Run as a whole, and saved.
-    Whole(fn(&P, &Progress) -> Result<T, Error>, Work<P>),
+    /// Run as a whole, and saved; the second function estimates its work, of which a core does
+    /// [`super::cutting::WORK_PER_SECOND`] in about a second, and no result depends on it.
+    Whole(fn(&P, &Progress) -> Result<T, Error>, fn(&P) -> u64),
     /// Cut into units; progress is shown under the name.
     Cut(&'static str, Cutting<P, U, T>),
 }

@@ -5,7 +5,7 @@ use super::store::{Identity, Json};
 use super::{AnyExperiment, AnyResult, Command, Error, Experiment, Fault, Profile, Session};
 use crate::input::count;
 use crate::names::{self, Names};
-use crate::table::{Table, Tables, find_cell, find_number, find_table, table_name};
+use crate::table::{Missing, NO_NUMBER, Table, Tables, find_cell, find_table, table_name};
 use crate::value::Value;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -156,8 +156,10 @@ impl Results {
     /// Returns the number with this address.
     #[track_caller]
     pub fn number(&self, address: &str) -> Result<f64, Error> {
-        self.note(table_name(address).unwrap_or(address));
-        Ok(find_number(self.tables()?, address)?)
+        match self.cell(address)?.as_f64() {
+            Some(number) => Ok(number),
+            None => Err(Missing::new(address, NO_NUMBER).into()),
+        }
     }
 
     /// Returns the results of experiments in this order: saved results where they are fresh, and

@@ -39,7 +39,7 @@ pub(crate) enum Fault {
     #[error("the plot has no series; add one")]
     NoSeries,
     #[error("the picture {0}")]
-    Picture(String),
+    Picture(&'static str),
     #[error("the shipped fonts have no glyph for {character:?} in the label {label:?}")]
     Glyph { character: char, label: String },
     #[error("drawing failed: {0}")]

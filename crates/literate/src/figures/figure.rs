@@ -38,20 +38,16 @@ impl Figure {
                 [0xff, 0xd8, 0xff, ..] => "jpg",
                 [b'%', b'P', b'D', b'F', ..] => "pdf",
                 _ if is_svg => "svg",
-                _ => return Err(Error(Fault::Picture("is not a png, jpg, svg or pdf".into()))),
+                _ => return Err(Error(Fault::Picture("is not a png, jpg, svg or pdf"))),
             };
             figure.files.push((format, bytes.to_vec()));
         }
         let is_all = |format| figure.files.iter().all(|file| file.0 == format);
         if is_all("pdf") {
-            return Err(Error(Fault::Picture(
-                "cannot be shown on pages; add an svg, png or jpg".into(),
-            )));
+            return Err(Error(Fault::Picture("cannot be shown on pages; add an svg, png or jpg")));
         }
         if is_all("svg") {
-            return Err(Error(Fault::Picture(
-                "cannot be shown in LaTeX; add a pdf, png or jpg".into(),
-            )));
+            return Err(Error(Fault::Picture("cannot be shown in LaTeX; add a pdf, png or jpg")));
         }
         Ok(figure)
     }

@@ -33,7 +33,7 @@ pub mod prelude {
     pub use super::style::*;
     pub use super::{Description, Drawn, Error, Figure};
     pub use crate::describe;
-    pub use plotters::element::{EmptyElement, PathElement, Polygon, Rectangle, Text};
+    pub use plotters::element::{PathElement, Polygon, Rectangle, Text};
     pub use plotters::style::text_anchor::{HPos, VPos};
     pub use plotters::style::{Color, FontTransform, RGBColor};
 }

@@ -53,7 +53,7 @@ const SHADES: [RGBColor; 4] = [
     RGBColor(0x0b, 0x25, 0x45),
 ];
 /// The page.
-pub const WHITE: RGBColor = RGBColor(0xff, 0xff, 0xff);
+pub(crate) const WHITE: RGBColor = RGBColor(0xff, 0xff, 0xff);
 
 /// All colours by the names that style sheets use.
 pub(super) const PALETTE: [(&str, RGBColor); 13] = [
@@ -153,7 +153,7 @@ pub fn words(size: i32, colour: RGBColor, h: HPos, v: VPos) -> TextStyle<'static
 
 /// Makes the style of words that may stand on something: a rim of the page's colour sets them off.
 /// A style of plotters cannot say so. The name of its font does, which chooses no font here.
-pub fn rimmed(size: i32, colour: RGBColor, h: HPos, v: VPos) -> TextStyle<'static> {
+pub(crate) fn rimmed(size: i32, colour: RGBColor, h: HPos, v: VPos) -> TextStyle<'static> {
     FontDesc::from(("rimmed", size)).color(&colour).pos(Pos::new(h, v))
 }
 

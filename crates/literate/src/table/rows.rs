@@ -45,7 +45,7 @@ impl Table {
 
     /// Returns the cell with this address, in which `first` and `last` may stand for values of a
     /// key, or `None` if there is no such cell.
-    pub(crate) fn cell(&self, address: &str) -> Option<&Value> {
+    pub fn cell(&self, address: &str) -> Option<&Value> {
         if ["=first", "=last"].iter().any(|end| address.contains(end)) {
             let (row, column) = address.strip_prefix(self.name)?.rsplit_once("].")?;
             return self.rows_by_name().get(row.strip_prefix('[')?)?.get(column).copied();

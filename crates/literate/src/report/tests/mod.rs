@@ -1,7 +1,6 @@
 //! A report of one document that uses everything, and everything that can be wrong with it.
 
 mod broken;
-mod damage;
 mod damaged;
 mod data;
 mod documents;
