@@ -1,6 +1,6 @@
 //! Builds a report: opens a run of a paper, judges its results, and makes every file in memory.
 
-use crate::claims::{Basis, Check, Published, Words, check_rules, judge_all};
+use crate::claims::{Check, Published, Words, check_rules, judge_all};
 use crate::code::Code;
 use crate::experiments::{AnyExperiment, Error, Profile, Progress, Results, Session, Store};
 use crate::failure::Failure;
@@ -73,17 +73,6 @@ impl Paper {
         Ok(published)
     }
 
-    /// Returns all checks: statements, first those that rest on a measure of ours, then relations.
-    pub(crate) fn checks(
-        &self,
-        results: &Results,
-        published: &Published,
-    ) -> Result<Vec<Check>, Failure> {
-        let mut checks = judge_all(published, &self.rules, results)?;
-        checks.sort_by_key(|check| (check.kind, check.basis != Basis::OurMeasure));
-        Ok(checks)
-    }
-
     fn registry(&self, results: &Results, published: &Published) -> Result<ValueRegistry, Failure> {
         let mut registry = ValueRegistry::default();
         registry.extend(printed_values(published))?;
@@ -114,7 +103,7 @@ pub fn make_report(
     };
     let figures =
         paper.figures.par_iter().with_max_len(1).map(figure).collect::<Result<Vec<Figure>, _>>()?;
-    let checks = paper.checks(&results, &published)?;
+    let checks = judge_all(&published, &paper.rules, &results)?;
     let statements: Vec<Check> =
         checks.iter().filter(|check| check.kind.is_printed()).cloned().collect();
     let values = paper.registry(&results, &published)?;

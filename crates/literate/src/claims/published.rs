@@ -89,11 +89,8 @@ impl Published {
         }
         for Parameter { id, value, .. } in &published.parameters {
             if !value.is_finite() {
-                return Err(PublishedError::in_entry(
-                    last_line(id),
-                    id,
-                    "value is not a finite number",
-                ));
+                let problem = "value is not a finite number";
+                return Err(PublishedError::in_entry(last_line(id), id, problem));
             }
         }
         let mut seen = BTreeSet::new();

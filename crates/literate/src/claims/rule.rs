@@ -94,9 +94,8 @@ impl Rule {
             let words = words.replace("{}", &statement.printed_digits().unwrap_or_default());
             if words != statement.printed {
                 let remedy = "and not its printed; restore the one that is wrong";
-                return Err(statement
-                    .fault(&format!("its check judges {words:?}, {remedy}"))
-                    .into());
+                let problem = format!("its check judges {words:?}, {remedy}");
+                return Err(statement.fault(&problem).into());
             }
         }
         let mut check = match (self.judge)(evidence) {
@@ -161,8 +160,9 @@ impl<'a> Judge<'a> {
     }
 }
 
-/// Judges all statements, in their order, and then all relations. A statement without a rule stays
-/// open and [fails](Check::fails); a rule without a statement, or a number, is an error.
+/// Judges all statements, first those that rest on a measure of ours, and then all relations. A
+/// statement without a rule stays open and [fails](Check::fails); a rule without a statement, or a
+/// number, is an error.
 pub fn judge_all(
     published: &Published,
     rules: &[Rule],
@@ -182,6 +182,7 @@ pub fn judge_all(
     for rule in rules.iter().filter(|rule| !rule.is_of_statement()) {
         checks.push(judge.check(rule, &rule.statement(published)?)?);
     }
+    checks.sort_by_key(|check| (check.kind, check.basis != Basis::OurMeasure));
     Ok(checks)
 }
 

@@ -24,10 +24,10 @@ pub(crate) enum Fault {
     #[error("the results of {0} were not run; add it to `needs`")]
     NotRun(&'static str),
     #[error(
-        "{experiment}: JSON loses some of its result, so it was not saved; use `None` where a number is not finite, \
+        "{0}: JSON loses some of its result, so it was not saved; use `None` where a number is not finite, \
          no `#[serde(skip)]`, and as keys of maps text and whole numbers"
     )]
-    Lost { experiment: String },
+    Lost(String),
     #[error("--results: {path}: {source}; {}", remedy(source, "choose another folder"))]
     Store { path: PathBuf, source: std::io::Error },
 }

@@ -232,14 +232,12 @@ impl<P: Json, T: Json, U: Json> AnyExperiment for Experiment<P, T, U> {
     }
 
     fn check_files(&self, project: &Project) -> Result<(), Error> {
-        let fault = |(problem, remedy)| Error::input(self.name, problem, remedy);
         // Without a checkout there is no code to look for.
         if let Some(absent) = self.own.iter().find(|path| !project.exists(path)) {
-            return Err(fault((
-                format!("it lists {absent}, which is not there"),
-                "correct the path",
-            )));
+            let problem = format!("it lists {absent}, which is not there");
+            return Err(Error::input(self.name, problem, "correct the path"));
         }
+        let fault = |(problem, remedy)| Error::input(self.name, problem, remedy);
         project.check_listed(self.reads).map_err(fault)
     }
 

@@ -194,8 +194,7 @@ fn parse_identity(saved: &str) -> Result<Identity, &'static str> {
 fn to_json<T: Json>(identity: &Identity, result: &T) -> Result<String, Error> {
     let json = serde_json::to_string(result).ok();
     let is_same = |json: &String| serde_json::from_str(json).is_ok_and(|read: T| read == *result);
-    json.filter(is_same)
-        .ok_or_else(|| Error(Fault::Lost { experiment: identity.experiment.clone() }))
+    json.filter(is_same).ok_or_else(|| Error(Fault::Lost(identity.experiment.clone())))
 }
 
 /// Writes a temporary file and renames it, so that no file ever has half a result.
@@ -233,13 +232,13 @@ mod tests {
         assert_eq!(format!("{again:?}"), format!("{result:?}"));
         for bad in [f64::NAN, f64::INFINITY] {
             let bad = store.save(&identity, &vec![None, Some(bad)]);
-            assert!(matches!(bad, Err(Error(Fault::Lost { .. }))));
+            assert!(matches!(bad, Err(Error(Fault::Lost(_)))));
         }
         #[derive(PartialEq, Serialize, Deserialize)]
         struct Partly(Option<f64>, #[serde(skip)] u32);
-        assert!(matches!(store.save(&identity, &Partly(None, 1)), Err(Error(Fault::Lost { .. }))));
+        assert!(matches!(store.save(&identity, &Partly(None, 1)), Err(Error(Fault::Lost(_)))));
         let keys = BTreeMap::from([((1, 2), 3)]);
-        assert!(matches!(to_json(&identity, &keys), Err(Error(Fault::Lost { .. }))));
+        assert!(matches!(to_json(&identity, &keys), Err(Error(Fault::Lost(_)))));
     }
 
     #[test]

@@ -232,9 +232,7 @@ impl DrawingBackend for Drawing {
         let upwards = match style.transform() {
             FontTransform::None => false,
             FontTransform::Rotate270 => true,
-            _ => {
-                return Err(Error(Fault::Drawing(format!("{words:?} would be upside down"))).into());
-            }
+            _ => return Err(Error(Fault::Drawing(format!("upside down: {words:?}"))).into()),
         };
         let scaled = |units: i32| units * style.size() as i32 / font::EM;
         let ((along, size), up) = if upwards {

@@ -121,9 +121,7 @@ pub fn outline(placed: &Placed) -> Result<Vec<Step>, Error> {
             OutlineCurve::Line(a, b) => (a, b, Step::Line(p(b))),
             OutlineCurve::Cubic(a, b, c, e) => (a, e, Step::Curve([p(b), p(c), p(e)])),
             OutlineCurve::Quad(..) => {
-                return Err(Error(Fault::Drawing(
-                    "the shipped fonts have cubic curves only".into(),
-                )));
+                return Err(Error(Fault::Drawing("shipped fonts have cubic curves only".into())));
             }
         };
         if at != Some(*from) {

@@ -194,11 +194,8 @@ impl Panel {
     pub fn estimates(&self, name: &str, estimates: &[(f64, Estimate)], marker: Marker) -> Drawn {
         for ((_, Estimate { error, .. }), row) in estimates.iter().zip(1..) {
             if !(0.0..).contains(error) {
-                return Err(Error(Fault::NegativeError {
-                    series: spelled(name),
-                    row,
-                    error: *error,
-                }));
+                let (series, error) = (spelled(name), *error);
+                return Err(Error(Fault::NegativeError { series, row, error }));
             }
         }
         let shown = |(x, y): &&(f64, Estimate)| self.has_place((*x, y.value));

@@ -1,11 +1,11 @@
 //! Makes a report from prose, values, checks and figures: its documents as Markdown, LaTeX and
 //! HTML, and its data.
 //!
-//! 1. [`values`] collects the numbers, and [`filler`] puts a mark for each into the prose.
-//! 2. [`parse`] reads the prose into the tree of `document`; `lint` refuses hard-coded numbers.
-//! 3. [`labels`] numbers figures, equations and sections, and resolves references and citations.
-//! 4. [`markdown`], [`latex`] and `html` write the tree, `search` indexes it, `card` explains.
-//! 5. [`assemble()`] returns every file as bytes; [`folder`] writes and compares them.
+//! 1. `values` collects the numbers, and `filler` puts a mark for each into the prose.
+//! 2. `parse` reads the prose into the tree of `document`; `lint` refuses hard-coded numbers.
+//! 3. `labels` numbers figures, equations and sections, and resolves references and citations.
+//! 4. `markdown`, `latex` and `html` write the tree, `search` indexes it, `card` explains.
+//! 5. `assemble` returns every file as bytes; `folder` writes and compares them.
 
 pub(crate) mod assemble;
 mod bibliography;

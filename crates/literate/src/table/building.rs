@@ -202,10 +202,8 @@ impl<'a, R> Building<'a, R> {
         })
     }
 
-    /// Names the rows by their keys, and notes what is wrong: [`Results::tables`] refuses the
-    /// table for two columns or rows of one name, and for numbers that are not finite.
-    ///
-    /// [`Results::tables`]: crate::experiments::Results::tables
+    /// Names the rows by their keys. Two columns or rows of one name, and numbers that are not
+    /// finite, are errors when the table is first asked for.
     pub fn done(mut self) -> Table {
         let columns = self.table.columns.clone();
         for (index, column) in columns.iter().enumerate() {

@@ -7,9 +7,9 @@ use super::*;
 const BROKEN: &str = include_str!("broken.txt");
 
 /// Prose with what can be nested and referred to.
-const MORE: &str = "\n\n## Sec {#sec:a}\n\nMasses ([@rice1945]; see [@eq:18] and [@sec:a]) move *fast*, [here](x.md):\n\n\
+const MORE: &str = "\n\n## Sec {#sec:a}\n\nMasses ([@rice1945]; see [@eq:18] and [@sec:a]) move *fast*, [here](data):\n\n\
     $$\np_{\\mathrm{crit}} = \\left(\\frac{1 + \\sqrt{N+1}}{«v.tiny | significant(digits=3)»}\\right)^2\n$$\n\n\
-    | Check | Ours |\n|:--|--:|\n<% for c in [\"a\", \"b\"] %>| «c» | «v.tiny | percent» |\n<% endfor %>\n";
+    | Check | Ours |\n|:--|--:|\n<% for d in [\"a\", \"b\"] %>| «d» | «v.tiny | percent» |\n<% endfor %>\n";
 
 #[test]
 fn faults_in_prose_are_reported_with_their_places() {
