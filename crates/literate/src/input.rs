@@ -12,7 +12,7 @@ use std::sync::RwLock;
 /// MiB at most of a file that is read whole. A scenario of a million masses has less.
 pub const MOST: u64 = 64;
 
-/// Reads text, as UTF-8, from something that is open.
+/// Reads text from an open file; one beyond [`MOST`] MiB or not in UTF-8 is an error.
 pub fn read_from(file: impl Read) -> Result<String, Error> {
     decode(read_bounded(file)?)
 }

@@ -138,7 +138,7 @@ impl Results {
         Ok(find_table(self.tables()?, name)?)
     }
 
-    /// Returns the bytes of a file that a command lists in `writes`.
+    /// Returns the bytes of a file in the `writes` of a command; it is an error if there is none.
     pub fn file(&self, command: &Command, path: &str) -> Result<Vec<u8>, Error> {
         let output = self.result(command.name)?;
         let problem = format!("{} wrote no such file", command.name);

@@ -35,7 +35,7 @@ pub const INK: RGBColor = RGBColor(0x22, 0x22, 0x22);
 pub const GREY: RGBColor = RGBColor(0x6b, 0x6b, 0x6b);
 /// Light fills and guides.
 pub const PALE: RGBColor = RGBColor(0xbd, 0xbd, 0xbd);
-/// Vermilion, for what matters most.
+/// Red, for what matters most.
 pub const RED: RGBColor = RGBColor(0xc8, 0x1e, 0x1e);
 /// Bluish green.
 pub const GREEN: RGBColor = RGBColor(0x00, 0x80, 0x5d);
@@ -128,9 +128,9 @@ impl Stroke {
 /// The mark at a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Symbol {
-    /// ×
+    /// The sign ×.
     Cross,
-    /// +
+    /// The sign +.
     Plus,
     /// A filled circle.
     Disc,
