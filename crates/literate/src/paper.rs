@@ -62,6 +62,10 @@ impl FigureSpec {
     }
 }
 
+type MakeValues = fn(&Results, &Published) -> Result<Vec<Value>, Failure>;
+type MakeRows = fn(&Results, &[Check]) -> Result<BTreeMap<&'static str, Json>, Failure>;
+type MakeLab = fn(&Session<'_>, &Results) -> Result<Option<String>, Failure>;
+
 /// A paper: all that it is made of.
 pub struct Paper {
     /// Title, authors and documents.
@@ -79,11 +83,11 @@ pub struct Paper {
     /// How each statement of `published.toml` is judged, and relations between numbers.
     pub rules: Vec<Rule>,
     /// Make values that the prose may use like the cells of tables.
-    pub values: Vec<fn(&Results, &Published) -> Result<Vec<Value>, Failure>>,
+    pub values: Vec<MakeValues>,
     /// Makes rows of tables that are neither values nor checks, by the names that the prose uses.
-    pub rows: Option<fn(&Results, &[Check]) -> Result<BTreeMap<&'static str, Json>, Failure>>,
+    pub rows: Option<MakeRows>,
     /// Makes `lab.js`, which a page loads to compute, or returns `None` if it cannot be made here.
-    pub lab: Option<fn(&Session<'_>, &Results) -> Result<Option<String>, Failure>>,
+    pub lab: Option<MakeLab>,
 }
 
 impl Paper {
@@ -177,10 +181,8 @@ impl Paper {
     pub(crate) fn find_figure(&self, name_or_number: &str) -> Result<&FigureSpec, Failure> {
         self.figures.iter().find(|figure| figure.is(name_or_number)).ok_or_else(|| {
             let names: Vec<&str> = self.figures.iter().map(|figure| figure.name).collect();
-            Failure::input(format!(
-                "there is no figure {name_or_number:?}; there are {}",
-                names.join(", ")
-            ))
+            let (asked, names) = (name_or_number, names.join(", "));
+            Failure::input(format!("there is no figure {asked:?}; there are {names}"))
         })
     }
 }
