@@ -1,6 +1,6 @@
 //! Lists the numbered equations of the paper with their homes, where a test finds `**Eq. (n)**`.
 
-use literate::report::ledger::EquationEntry;
+use literate::report::EquationEntry;
 
 /// Number, section, all digits of its formula in the prose, words, the item that documents it, and
 /// the equation that a step leads to.

@@ -34,9 +34,7 @@ pub use impact_chain::rise;
 pub use jump::MODE_JUMP;
 pub use lengths::LENGTHS;
 pub use list::{ALL, THEORY, bare};
-pub use literate::experiments::{
-    AnyExperiment, Error, Progress, Results, Session, Store, alive, say,
-};
+pub use literate::experiments::{AnyExperiment, Error, Progress, Results, Session, Store, alive};
 pub use measured::{MEASURED, Measured};
 pub use nucleation::NUCLEATION;
 pub use programs::PROGRAMS;

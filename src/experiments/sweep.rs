@@ -18,7 +18,8 @@ const STICKING: f64 = 0.3;
 
 /// Returns the counts of the main sweep.
 pub fn main_sweep(results: &Results) -> Result<&Counted, Error> {
-    find_ensemble(results.of(&SWEEP)?, SWEEP.name).ok_or(Error::NotRun(SWEEP.name))
+    let missing = || Error::input(SWEEP.name, "its result has no chains", "run it again");
+    find_ensemble(results.of(&SWEEP)?, SWEEP.name).ok_or_else(missing)
 }
 
 fn tables(ensembles: &Vec<Counted>) -> Vec<Table> {

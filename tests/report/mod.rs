@@ -10,14 +10,12 @@ mod picture;
 mod prose;
 mod structure;
 
-use impact_paper::claims::{self, Published};
-use impact_paper::contents;
+use impact_paper::claims::Published;
 use impact_paper::experiments::{ALL, AnyExperiment, Progress, Results, Session, Store};
 use impact_paper::params::Profile;
-use literate::Paper;
 use literate::figures::Figure;
-use literate::prose::Templates;
-use literate::report::{Document, Files, Input, Registry, assemble};
+use literate::report::{Document, Files};
+use literate::{Paper, Templates, make_report};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::LazyLock;
@@ -31,23 +29,20 @@ struct Quick {
     /// The same as it is written into a folder of target/.
     below: Files,
     results: Results,
-    values: Registry,
 }
 
-/// Results that the program saved, of these experiments, with the session that read them.
-fn results<'a>(paper: &'a Paper, needs: &[&'static dyn AnyExperiment]) -> (Session<'a>, Results) {
-    let saved = tempfile::tempdir().unwrap();
-    crate::put(saved.path(), &crate::QUICK.results);
-    let (store, quiet) = (Store::open(saved.path()), Progress::silent());
-    let session = paper.session(None, Profile::Quick, store, quiet).unwrap();
-    let results = paper.results(needs, &session).unwrap();
-    (session, results)
+/// A session with the results that the program saved, in this folder.
+fn session<'a>(paper: &'a Paper, saved: &Path) -> Session<'a> {
+    crate::put(saved, &crate::QUICK.results);
+    let (store, quiet) = (Store::open(saved), Progress::silent());
+    paper.session(None, Profile::Quick, store, quiet).unwrap()
 }
 
 impl Quick {
     /// Results once more, to be changed.
     fn results_again(&self, needs: &[&'static dyn AnyExperiment]) -> Results {
-        results(&self.paper, needs).1
+        let saved = tempfile::tempdir().unwrap();
+        self.paper.results(needs, &session(&self.paper, saved.path())).unwrap()
     }
 
     fn markdown(&self, document: &Document) -> &str {
@@ -97,41 +92,18 @@ fn links_land(files: impl Fn(&Files) -> Links, least: usize, across: usize) {
 }
 
 static QUICK: LazyLock<Quick> = LazyLock::new(|| {
-    let paper = impact_paper::paper();
-    let (session, results) = results(&paper, ALL);
+    let paper = Paper { lab: Some(|_, _| Ok(Some(String::new()))), ..impact_paper::paper() };
+    let saved = tempfile::tempdir().unwrap();
+    let session = session(&paper, saved.path());
+    let results = paper.results(ALL, &session).unwrap();
     let published = paper.published(&session).unwrap();
-    let mut claims = claims::judge_all(&published, &claims::rules(), &results).unwrap();
-    claims.retain(|check| check.kind.is_printed());
-    let values = paper.registry(&results, &published).unwrap();
-    let rows = contents::rows(&results, &claims).unwrap();
     let figures: Vec<_> =
         paper.figures.iter().map(|figure| figure.figure(&results).unwrap()).collect();
-    let made = |top| {
-        let input = Input {
-            templates: &session.templates,
-            values: &values,
-            rows: &rows,
-            claims: &claims,
-            figures: &figures,
-            lab: Some(""),
-            top,
-            edition: &paper.edition,
-            project: &paper.project,
-            experiments: &paper.experiments,
-            warn: &|line| panic!("{line}"),
-        };
-        assemble(&input).unwrap_or_else(|error| panic!("{error}"))
+    let made = |out: &str| {
+        let made = make_report(&paper, &session, Path::new(out));
+        made.unwrap_or_else(|failure| panic!("{}", failure.message)).0
     };
-    let [report, below] = [Some("../"), Some("../../")].map(made);
+    let [report, below] = ["paper", "target/paper-quick"].map(made);
     let templates = session.templates.clone();
-    Quick {
-        paper: impact_paper::paper(),
-        templates,
-        published,
-        figures,
-        report,
-        below,
-        results,
-        values,
-    }
+    Quick { paper: impact_paper::paper(), templates, published, figures, report, below, results }
 });

@@ -1,8 +1,9 @@
 //! Tests rules about the source that no compiler checks, and that the README is current.
 
 use super::QUICK;
-use literate::report::ledger::EquationEntry;
-use literate::report::{Value, values};
+use literate::report::EquationEntry;
+use literate::value::Value;
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
@@ -107,9 +108,10 @@ fn each_equation_has_one_home() {
 /// An origin names the function that computed the number: no constant, structure or module.
 #[test]
 fn every_origin_is_a_function() {
-    let values = values::read(std::str::from_utf8(&QUICK.report["values.json"]).unwrap()).unwrap();
+    let values: BTreeMap<String, Value> =
+        serde_json::from_slice(&QUICK.report["values.json"]).unwrap();
     let (sources, mut functions) = (&QUICK.paper.project.sources, 0);
-    for Value { id, source, .. } in values.iter().filter(|value| !value.source.is_empty()) {
+    for Value { id, source, .. } in values.values().filter(|value| !value.source.is_empty()) {
         let (file, line) = sources.place(source).unwrap_or_else(|| panic!("{id}: {source}"));
         let (_, text) = sources.files.iter().find(|(path, _)| *path == file).unwrap();
         let line = text.lines().nth(line.expect(source) - 1).unwrap();

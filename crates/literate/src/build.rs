@@ -1,6 +1,6 @@
 //! Builds a report: opens a run of a paper, judges its results, and makes every file in memory.
 
-use crate::claims::{Basis, Check, Published, Words, check_rules, judge_all};
+use crate::claims::{Check, Published, Words, check_rules, judge_all};
 use crate::code::Code;
 use crate::experiments::{AnyExperiment, Error, Profile, Progress, Results, Session, Store};
 use crate::failure::Failure;
@@ -9,7 +9,8 @@ use crate::paper::{FigureSpec, Paper};
 use crate::prose::Templates;
 use crate::report::claims::printed_values;
 use crate::report::filler::Filler;
-use crate::report::{Files, Input, Registry, Value, assemble};
+use crate::report::{Files, Input, ValueRegistry, assemble};
+use crate::value::Value;
 use rayon::prelude::*;
 use std::path::Path;
 
@@ -72,15 +73,8 @@ impl Paper {
         Ok(published)
     }
 
-    /// Returns all checks: statements, first those that rest on a measure of ours, then relations.
-    pub fn checks(&self, results: &Results, published: &Published) -> Result<Vec<Check>, Failure> {
-        let mut checks = judge_all(published, &self.rules, results)?;
-        checks.sort_by_key(|check| (check.kind, check.basis != Basis::OurMeasure));
-        Ok(checks)
-    }
-
-    pub fn registry(&self, results: &Results, published: &Published) -> Result<Registry, Failure> {
-        let mut registry = Registry::default();
+    fn registry(&self, results: &Results, published: &Published) -> Result<ValueRegistry, Failure> {
+        let mut registry = ValueRegistry::default();
         registry.extend(printed_values(published))?;
         let profile = Value::words("profile", results.profile.name());
         registry.add(profile.source(crate::value::origin(Paper::registry)))?;
@@ -99,7 +93,7 @@ pub fn make_report(
     out: &Path,
 ) -> Result<(Files, Vec<Check>), Failure> {
     let Session { templates, progress, .. } = session;
-    Filler::new(templates, &Registry::default())?;
+    Filler::new(templates, &ValueRegistry::default())?;
     let published = paper.published(session)?;
     let results = paper.results(&paper.experiments, session)?;
     results.tables()?;
@@ -109,7 +103,7 @@ pub fn make_report(
     };
     let figures =
         paper.figures.par_iter().with_max_len(1).map(figure).collect::<Result<Vec<Figure>, _>>()?;
-    let checks = paper.checks(&results, &published)?;
+    let checks = judge_all(&published, &paper.rules, &results)?;
     let statements: Vec<Check> =
         checks.iter().filter(|check| check.kind.is_printed()).cloned().collect();
     let values = paper.registry(&results, &published)?;

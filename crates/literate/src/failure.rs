@@ -1,7 +1,7 @@
 //! Turns any error into a message and an exit code.
 
 use crate::claims::{self, PublishedError};
-use crate::experiments::Error;
+use crate::experiments::{Error, Fault};
 use crate::input::{one_line, remedy};
 use crate::prose;
 use crate::report::{self, folder};
@@ -33,11 +33,11 @@ impl Failure {
         Failure { code: 1, message: one_line(&message.into(), LONGEST) }
     }
 
-    pub fn io(error: &io::Error, what: impl Display, otherwise: &str) -> Self {
+    pub(crate) fn io(error: &io::Error, what: impl Display, otherwise: &str) -> Self {
         Failure::input(format!("{what}: {error}; {}", remedy(error, otherwise)))
     }
 
-    pub fn in_context(self, context: impl Display) -> Self {
+    pub(crate) fn in_context(self, context: impl Display) -> Self {
         Failure { message: format!("{context}: {}", self.message), ..self }
     }
 }
@@ -51,8 +51,8 @@ impl<E: std::error::Error + 'static> From<E> for Failure {
             _ => any.downcast_ref::<Error>(),
         };
         let code = match run {
-            Some(Error::Interrupted) => INTERRUPTED,
-            Some(Error::Store { .. } | Error::Input { .. }) => 2,
+            Some(Error(Fault::Interrupted)) => INTERRUPTED,
+            Some(Error(Fault::Store { .. }) | Error(Fault::Input { .. })) => 2,
             _ if any.is::<folder::Error>() || any.is::<prose::Error>() => 2,
             _ if any.is::<PublishedError>() => 2,
             _ if matches!(judged, Some(claims::Error::Published(_))) => 2,

@@ -12,6 +12,7 @@ use std::sync::RwLock;
 /// MiB at most of a file that is read whole. A scenario of a million masses has less.
 pub const MOST: u64 = 64;
 
+/// Reads text from an open file; one beyond [`MOST`] MiB or not in UTF-8 is an error.
 pub fn read_from(file: impl Read) -> Result<String, Error> {
     decode(read_bounded(file)?)
 }
@@ -24,7 +25,7 @@ pub fn read_file(path: &Path) -> Result<Vec<u8>, Error> {
     read_bounded(File::open(path)?)
 }
 
-pub fn read_text(path: &Path) -> Result<String, Error> {
+pub(crate) fn read_text(path: &Path) -> Result<String, Error> {
     decode(read_file(path)?)
 }
 
@@ -53,7 +54,7 @@ pub fn sha256(bytes: impl AsRef<[u8]>) -> String {
 
 /// Lists a file, or all files below a folder, links included, by their paths from the folder `top`.
 /// An error names the path that is missing or cannot be opened.
-pub fn list_files(top: &Path, place: &str) -> Result<Vec<String>, Error> {
+pub(crate) fn list_files(top: &Path, place: &str) -> Result<Vec<String>, Error> {
     let (mut files, mut open) = (Vec::new(), vec![place.to_string()]);
     while let Some(path) = open.pop() {
         let here = top.join(&path);
@@ -73,17 +74,17 @@ pub fn list_files(top: &Path, place: &str) -> Result<Vec<String>, Error> {
 }
 
 /// Computes the SHA-256 of the files that [`list_files`] lists, of whatever size.
-pub fn hash_files(top: &Path, place: &str) -> Result<BTreeMap<String, String>, Error> {
+pub(crate) fn hash_files(top: &Path, place: &str) -> Result<BTreeMap<String, String>, Error> {
     let hash = |path: String| Ok((path.clone(), sha256(std::fs::read(top.join(path))?)));
     list_files(top, place)?.into_iter().map(hash).collect()
 }
 
-pub fn is_absent(error: &Error) -> bool {
+pub(crate) fn is_absent(error: &Error) -> bool {
     [ErrorKind::NotFound, ErrorKind::NotADirectory].contains(&error.kind())
 }
 
 /// Returns what to do about an error of the system, which is `otherwise` if the place is at fault.
-pub fn remedy<'a>(error: &Error, otherwise: &'a str) -> &'a str {
+pub(crate) fn remedy<'a>(error: &Error, otherwise: &'a str) -> &'a str {
     match error.kind() {
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::WriteZero => "make room",
         ErrorKind::InvalidData => "save it as UTF-8",
@@ -95,33 +96,33 @@ pub fn remedy<'a>(error: &Error, otherwise: &'a str) -> &'a str {
 }
 
 /// Prefix of the names of files and folders that are not yet complete.
-pub const STAGING: &str = ".staging-literate-";
+pub(crate) const STAGING: &str = ".staging-literate-";
 
 /// Held for reading while files are put into place, and for writing when the program ends.
-pub static WRITING: RwLock<()> = RwLock::new(());
+pub(crate) static WRITING: RwLock<()> = RwLock::new(());
 
 /// Describes a TOML error with its line, from 1, and a remedy: `12: missing field …; correct …`.
-pub fn toml_fault(toml: &str, error: &toml::de::Error) -> String {
+pub(crate) fn toml_fault(toml: &str, error: &toml::de::Error) -> String {
     let before = error.span().and_then(|span| toml.get(..span.start)).unwrap_or_default();
     let problem = one_line(&in_plain_words(error.message()), 300);
     format!("{}: {problem}; correct this line, or restore the file", line_number(before))
 }
 
 /// Returns the number of the line that a text ends in, from 1.
-pub fn line_number(before: &str) -> usize {
+pub(crate) fn line_number(before: &str) -> usize {
     before.matches('\n').count() + 1
 }
 
 /// A place in a file, with line and column in characters, from 1, where they are known.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Place {
+pub(crate) struct Place {
     file: String,
     line_and_column: Option<(usize, usize)>,
 }
 
 impl Place {
     /// Returns the place of an offset in the text of a file.
-    pub fn in_text(file: String, text: &str, offset: usize) -> Place {
+    pub(crate) fn in_text(file: String, text: &str, offset: usize) -> Place {
         let before = text.get(..offset).unwrap_or(text);
         let column = before.rsplit('\n').next().unwrap_or_default().chars().count() + 1;
         Place { file, line_and_column: Some((line_number(before), column)) }
@@ -164,7 +165,7 @@ pub(crate) fn source_line(location: &Location<'_>) -> String {
 }
 
 /// Counts things in words: `3 numbers`, `1 number`, `no number`.
-pub fn count(number: usize, noun: &str) -> String {
+pub(crate) fn count(number: usize, noun: &str) -> String {
     match number {
         0 => format!("no {noun}"),
         1 => format!("1 {noun}"),
@@ -191,13 +192,14 @@ const PLAIN: [(&str, &str); 11] = [
     ("cannot parse integer from empty string", WHOLE),
 ];
 
+/// Puts words of users in place of those of parsers, as "a whole number" for `usize`.
 pub fn in_plain_words(message: &str) -> String {
     let put = |line: String, (theirs, ours): &(&str, &str)| line.replace(theirs, ours);
     PLAIN.iter().fold(message.into(), put)
 }
 
 /// Returns whether a terminal or an editor treats a character as a command, or hides it.
-pub fn is_control(c: char) -> bool {
+pub(crate) fn is_control(c: char) -> bool {
     match c {
         ' '..='~' => false,
         '\u{ad}' | '\u{61c}' | '\u{180e}' | '\u{feff}' => true,

@@ -29,6 +29,7 @@
 //! ```
 
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+#![deny(missing_docs)]
 
 mod build;
 pub mod claims;
@@ -58,18 +59,20 @@ pub mod prelude {
     pub use rand::RngExt;
 }
 mod print;
-pub mod project;
-pub mod prose;
+mod project;
+mod prose;
 pub mod report;
-pub mod sample;
+mod sample;
 mod source;
 pub mod table;
 pub mod value;
 
 pub use build::make_report;
 pub use failure::{Failure, INTERRUPTED};
-pub use impact_numerics::{double_double, estimates, random, statistics};
+pub use impact_numerics::double_double;
 pub use literate_sources::{sources, texts};
-pub use paper::{FigureSpec, Lab, MakeValues, Paper, Rows};
+pub use paper::{FigureSpec, Paper};
 pub use project::Project;
+pub use prose::Templates;
+pub use sample::Sampled;
 pub use source::Sources;

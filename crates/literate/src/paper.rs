@@ -7,22 +7,26 @@ use crate::figures::{self, Figure};
 use crate::input;
 use crate::names::{self, Names};
 use crate::project::Project;
-use crate::report::{Edition, Value};
+use crate::report::Edition;
 use crate::source::Sources;
+use crate::value::Value;
 use serde_json::Value as Json;
 use std::collections::{BTreeMap, BTreeSet};
 use std::panic::Location;
 
+/// A figure of the paper before it is drawn.
 #[derive(Clone, Copy)]
 pub struct FigureSpec {
     /// Its name; its picture is `figures/NAME.svg`.
     pub name: &'static str,
+    /// The experiments whose results it shows.
     pub needs: &'static [&'static dyn AnyExperiment],
-    pub draw: fn(&Results) -> Result<Figure, figures::Error>,
+    pub(crate) draw: fn(&Results) -> Result<Figure, figures::Error>,
     place: &'static Location<'static>,
 }
 
 impl FigureSpec {
+    /// Lists a figure with its name, what it needs, and the function that draws it.
     #[track_caller]
     pub const fn new(
         name: &'static str,
@@ -32,6 +36,7 @@ impl FigureSpec {
         FigureSpec { name, needs, draw, place: Location::caller() }
     }
 
+    /// Draws it from results, and names its files; it is an error if it cannot be drawn.
     pub fn figure(&self, results: &Results) -> Result<Figure, Failure> {
         let named = |error| Failure::from(error).in_context(format!("figure {}", self.name));
         let mut figure = (self.draw)(results).map_err(named)?;
@@ -57,29 +62,32 @@ impl FigureSpec {
     }
 }
 
-/// Makes values that the prose may use like the cells of tables.
-pub type MakeValues = fn(&Results, &Published) -> Result<Vec<Value>, Failure>;
+type MakeValues = fn(&Results, &Published) -> Result<Vec<Value>, Failure>;
+type MakeRows = fn(&Results, &[Check]) -> Result<BTreeMap<&'static str, Json>, Failure>;
+type MakeLab = fn(&Session<'_>, &Results) -> Result<Option<String>, Failure>;
 
-/// Makes rows of tables that are neither values nor checks, by the names that the prose uses.
-pub type Rows = fn(&Results, &[Check]) -> Result<BTreeMap<&'static str, Json>, Failure>;
-
-/// Makes `lab.js`, which a page loads to compute, or returns `None` if it cannot be made here.
-pub type Lab = fn(&Session<'_>, &Results) -> Result<Option<String>, Failure>;
-
+/// A paper: all that it is made of.
 pub struct Paper {
+    /// Title, authors and documents.
     pub edition: Edition,
+    /// Its source, and the files that it reads.
     pub project: Project,
     /// Folder of the prose, from the top of the project.
     pub prose: &'static str,
     /// All experiments, in the order in which they run.
     pub experiments: Vec<&'static dyn AnyExperiment>,
+    /// Tables that need results of several experiments.
     pub derived: Vec<DerivedTables>,
+    /// All figures, in their order.
     pub figures: Vec<FigureSpec>,
     /// How each statement of `published.toml` is judged, and relations between numbers.
     pub rules: Vec<Rule>,
+    /// Make values that the prose may use like the cells of tables.
     pub values: Vec<MakeValues>,
-    pub rows: Option<Rows>,
-    pub lab: Option<Lab>,
+    /// Makes rows of tables that are neither values nor checks, by the names that the prose uses.
+    pub rows: Option<MakeRows>,
+    /// Makes `lab.js`, which a page loads to compute, or returns `None` if it cannot be made here.
+    pub lab: Option<MakeLab>,
 }
 
 impl Paper {
@@ -99,16 +107,19 @@ impl Paper {
         }
     }
 
+    /// Adds an author with an affiliation, which may be empty.
     pub fn author(mut self, name: &'static str, affiliation: &'static str) -> Self {
         self.edition.authors.push((name, affiliation));
         self
     }
 
+    /// Adds an experiment, which runs after those before it.
     pub fn experiment(mut self, experiment: &'static dyn AnyExperiment) -> Self {
         self.experiments.push(experiment);
         self
     }
 
+    /// Adds the rule that judges the statement with this id.
     #[track_caller]
     pub fn check(
         self,
@@ -118,11 +129,13 @@ impl Paper {
         self.rule(Rule::new(id, judge))
     }
 
+    /// Adds a rule.
     pub fn rule(mut self, rule: Rule) -> Self {
         self.rules.push(rule);
         self
     }
 
+    /// Adds a figure with its name, the experiments that it needs, and what draws it.
     #[track_caller]
     pub fn figure(
         mut self,
@@ -165,13 +178,11 @@ impl Paper {
     }
 
     /// Finds a figure by its name or number: `spread`, `3`, `s1`.
-    pub fn find_figure(&self, name_or_number: &str) -> Result<&FigureSpec, Failure> {
+    pub(crate) fn find_figure(&self, name_or_number: &str) -> Result<&FigureSpec, Failure> {
         self.figures.iter().find(|figure| figure.is(name_or_number)).ok_or_else(|| {
             let names: Vec<&str> = self.figures.iter().map(|figure| figure.name).collect();
-            Failure::input(format!(
-                "there is no figure {name_or_number:?}; there are {}",
-                names.join(", ")
-            ))
+            let (asked, names) = (name_or_number, names.join(", "));
+            Failure::input(format!("there is no figure {asked:?}; there are {names}"))
         })
     }
 }
@@ -185,7 +196,7 @@ mod tests {
 
     #[test]
     fn a_figure_is_found_by_its_name_and_its_number() {
-        let draw = |_: &Results| Err(figures::Error::Drawing(String::new()));
+        let draw = |_: &Results| Err(crate::experiments::Error::input("", "", "").into());
         let paper = Paper::new("toy", toy()).figure("fig03", &[], draw);
         let paper = paper.figure("s01", &[], draw).figure("spread", &[], draw);
         paper.check_names().unwrap();

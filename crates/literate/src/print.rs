@@ -186,7 +186,7 @@ fn grouped(digits: String) -> String {
 
 impl Value {
     /// Returns the value in its digits, for terminals and data: `0.1165(4)`.
-    pub fn to_plain_text(&self) -> String {
+    pub(crate) fn to_plain_text(&self) -> String {
         print(&self.number, Style::default()).to_plain_text()
     }
 }

@@ -11,8 +11,10 @@ use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
 
+/// The source of a program, and the folder in which it is developed.
 #[derive(Debug)]
 pub struct Project {
+    /// The source as it was compiled.
     pub sources: Sources,
     /// Paths and texts of what it reads when it runs; empty unless it travels alone.
     pub copy: &'static [(&'static str, &'static str)],
@@ -31,6 +33,7 @@ pub(crate) fn is_in(path: &str, place: &str) -> bool {
 }
 
 impl Project {
+    /// Makes a project in which all code counts for each result.
     pub fn new(sources: Sources) -> Self {
         Project { sources, copy: &[], apart: &[], shared: &[] }
     }
@@ -67,7 +70,7 @@ impl Project {
     }
 
     /// Checks that files that an experiment lists are there, or says what to do.
-    pub fn check_listed(&self, files: &[&str]) -> Result<(), (String, &'static str)> {
+    pub(crate) fn check_listed(&self, files: &[&str]) -> Result<(), (String, &'static str)> {
         let is_source = |place: &str| self.sources.files.iter().any(|(path, _)| is_in(path, place));
         let is_there = |place: &str| {
             is_source(place) || self.copied(place).is_some() || self.folder().join(place).exists()
@@ -102,7 +105,7 @@ impl Project {
 
     /// Returns the path at which a file of the project is written: below its top, or below the
     /// current folder if this lies elsewhere.
-    pub fn place(&self, path: &str) -> PathBuf {
+    pub(crate) fn place(&self, path: &str) -> PathBuf {
         self.path_up().unwrap_or_default().join(path)
     }
 
@@ -110,13 +113,13 @@ impl Project {
         std::env::current_dir().ok()?.join(self.path_to_top()?).canonicalize().ok()
     }
 
-    pub fn folder(&self) -> PathBuf {
+    pub(crate) fn folder(&self) -> PathBuf {
         self.top().unwrap_or_else(|| ".".into())
     }
 
     /// Returns a file of the source that has changed since the program was built, or `None` if
     /// there is no such file.
-    pub fn changed(&self) -> Option<&'static str> {
+    pub(crate) fn changed(&self) -> Option<&'static str> {
         let top = self.top()?;
         let differs = |path: &str, text: &str| {
             std::fs::read_to_string(top.join(path)).is_ok_and(|now| now != text)
@@ -126,13 +129,13 @@ impl Project {
     }
 
     /// Returns whether a file or folder of the project exists; without a checkout all do.
-    pub fn exists(&self, path: &str) -> bool {
+    pub(crate) fn exists(&self, path: &str) -> bool {
         self.top().is_none_or(|top| top.join(path).exists())
     }
 
     /// Returns the path from a folder, which may be absent, up to the top of the project, as `../`,
     /// or `None` if it lies elsewhere.
-    pub fn way_up(&self, folder: &Path) -> Option<String> {
+    pub(crate) fn way_up(&self, folder: &Path) -> Option<String> {
         let folder = std::path::absolute(folder).ok()?;
         let real =
             |above: &Path| Some(above.canonicalize().ok()?.join(folder.strip_prefix(above).ok()?));

@@ -42,6 +42,7 @@ pub enum Error {
     Missing(String),
 }
 
+/// The prose and all that stands with it, by paths within its folder.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Templates {
     files: BTreeMap<String, String>,
@@ -50,13 +51,13 @@ pub struct Templates {
 }
 
 impl Templates {
-    pub fn from_files<'a>(files: impl IntoIterator<Item = (&'a str, &'a str)>) -> Self {
+    pub(crate) fn from_files<'a>(files: impl IntoIterator<Item = (&'a str, &'a str)>) -> Self {
         let files = SKIN.into_iter().chain(files);
         let files = files.map(|(path, text)| (path.to_string(), text.to_string())).collect();
         Templates { files, ..Templates::default() }
     }
 
-    pub fn read(folder: &Path) -> Result<Self, Error> {
+    pub(crate) fn read(folder: &Path) -> Result<Self, Error> {
         let mut templates = Templates::from_files([]);
         let here = std::env::current_dir().unwrap_or_default();
         templates.folder = format!("{}/", folder.strip_prefix(here).unwrap_or(folder).display());
@@ -81,6 +82,7 @@ impl Templates {
         Ok(())
     }
 
+    /// Returns the text of a file; it is an error if there is none.
     pub fn text(&self, path: &str) -> Result<&str, Error> {
         let missing = || Error::Missing(path.to_string());
         self.files.get(path).map(String::as_str).ok_or_else(missing)
@@ -91,6 +93,7 @@ impl Templates {
         format!("{}{path}", self.folder)
     }
 
+    /// Returns the paths and texts of all files.
     pub fn iter(&self) -> impl Iterator<Item = (&str, &str)> {
         self.files.iter().map(|(path, text)| (path.as_str(), text.as_str()))
     }

@@ -24,10 +24,11 @@ impl Sample {
     }
 }
 
+/// An estimate that knows how many values it is from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sampled {
-    pub estimate: Estimate,
-    pub sample: Sample,
+    pub(crate) estimate: Estimate,
+    pub(crate) sample: Sample,
 }
 
 impl Deref for Sampled {

@@ -3,7 +3,9 @@
 /// The source of a program, as it was compiled.
 #[derive(Clone, Copy, Debug)]
 pub struct Sources {
+    /// Name of the program.
     pub name: &'static str,
+    /// Version of the program.
     pub version: &'static str,
     /// Path of each file from the folder of its Cargo.toml, and its text.
     pub files: &'static [(&'static str, &'static str)],
@@ -22,7 +24,7 @@ impl Sources {
 
     /// Returns the listing of an item: the lines of its file between `// listing: NAME`, with the
     /// last name of its path, and `// end`, without indentation.
-    pub fn listing(&self, item: &str) -> Result<String, String> {
+    pub(crate) fn listing(&self, item: &str) -> Result<String, String> {
         let file = self.file(item);
         let source = self.files.iter().find(|(path, _)| Some(*path) == file);
         let name = item.rsplit("::").next().unwrap_or_default();

@@ -10,6 +10,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 use std::collections::BTreeSet;
 use std::sync::{Mutex, PoisonError};
 
+/// A number as it is shown, or words.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Number {
@@ -18,8 +19,11 @@ pub enum Number {
     None,
     /// An exact integer of at most 64 bits, with a sign or without.
     Integer(i128),
+    /// A real number.
     Real {
+        /// The number.
         value: f64,
+        /// What decides its printed digits.
         digits: Digits,
     },
     /// Words, for the few values that are not numbers (a version, a profile, a list).
@@ -134,7 +138,7 @@ impl<'de> Deserialize<'de> for Written {
 
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Provenance {
+pub(crate) enum Provenance {
     /// An integer or a text that follows without rounding, or a parameter that was chosen.
     #[default]
     Exact,
@@ -152,23 +156,24 @@ pub enum Provenance {
     Measured,
 }
 
+/// A number with its unit, kind and origin.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Value {
     /// The name: `version` is `«v.version»`, and `printed.threshold` is `«printed.threshold»`.
     pub id: String,
-    pub number: Number,
+    pub(crate) number: Number,
     /// Its unit as Markdown, as `$1/\omega$`; empty for a pure number.
     #[serde(default, skip_serializing_if = "String::is_empty")]
-    pub unit: String,
-    pub kind: Provenance,
+    pub(crate) unit: String,
+    pub(crate) kind: Provenance,
     /// Path of the item that computed it, as the compiler writes it: `my_paper::jump::p_jump`.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub source: String,
     /// The experiment whose results it was read from; empty for parameters.
     #[serde(default, skip_serializing_if = "String::is_empty")]
-    pub experiment: String,
+    pub(crate) experiment: String,
     #[serde(default, skip_serializing_if = "String::is_empty")]
-    pub note: String,
+    pub(crate) note: String,
 }
 
 impl Value {
@@ -176,6 +181,7 @@ impl Value {
         Value { id: id.into(), number, kind, ..Value::default() }
     }
 
+    /// Makes an exact number, printed with all its digits.
     pub fn integer(id: impl Into<String>, n: impl Into<Number>) -> Self {
         Value::new(id, n.into(), Provenance::Exact)
     }
@@ -186,12 +192,13 @@ impl Value {
         Value::new(id, Number::Real { value, digits }, Provenance::Deterministic)
     }
 
+    /// Makes a value that is words.
     pub fn words(id: impl Into<String>, words: impl Into<String>) -> Self {
         Value::new(id, Number::Text(words.into()), Provenance::Exact)
     }
 
     /// Makes a number as somebody printed it, with its decimals, at a place of a paper.
-    pub fn printed(
+    pub(crate) fn printed(
         id: impl Into<String>,
         value: f64,
         decimals: usize,
@@ -205,13 +212,14 @@ impl Value {
         Value::new(id, number, Provenance::Printed { place: place.into() })
     }
 
+    /// Sets the item that computed it.
     pub fn source(mut self, item: Origin) -> Self {
         self.source = item.0;
         self
     }
 
     /// Returns its number as a double, or `None` if it has no number.
-    pub fn as_f64(&self) -> Option<f64> {
+    pub(crate) fn as_f64(&self) -> Option<f64> {
         match self.number {
             Number::Integer(n) => Some(n as f64),
             Number::Real { value, .. } => Some(value),
@@ -221,13 +229,13 @@ impl Value {
 
     /// Returns its number with the standard error, which is half of the interval, or `None` if it
     /// has no number.
-    pub fn estimate(&self) -> Option<Estimate> {
+    pub(crate) fn estimate(&self) -> Option<Estimate> {
         let (value, error) = (self.as_f64()?, self.standard_error());
         Some(Estimate { value, error, interval: [value - error, value + error] })
     }
 
     /// Returns its standard error, which is zero if it has no error.
-    pub fn standard_error(&self) -> f64 {
+    pub(crate) fn standard_error(&self) -> f64 {
         match self.kind {
             Provenance::Ensemble { standard_error, .. } => standard_error,
             _ => 0.0,
@@ -235,6 +243,7 @@ impl Value {
     }
 }
 
+/// The path of the item that computed a number.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Origin(pub(crate) String);
 
@@ -245,7 +254,7 @@ pub fn origin<F>(_: F) -> Origin {
 }
 
 /// Returns the [`origin`] of what a function computes that is given by its type.
-pub fn origin_of<F>() -> Origin {
+pub(crate) fn origin_of<F>() -> Origin {
     // A closure counts as the function in which it stands.
     let path = std::any::type_name::<F>().replace("::{{closure}}", "");
     let (Some(from), Some(to)) = (path.find('<'), path.rfind('>')) else { return Origin(path) };

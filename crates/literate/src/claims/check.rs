@@ -3,18 +3,21 @@
 use super::text::Text;
 use serde::{Deserialize, Serialize};
 
+/// What a check judges.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {
+    /// Something that was printed.
     #[default]
     Statement,
     /// A definition of words or symbols that was printed: it is judged, and no score counts it.
     Definition,
+    /// A relation between numbers of the paper itself.
     Relation,
 }
 
 impl Kind {
-    pub fn is_printed(self) -> bool {
+    pub(crate) fn is_printed(self) -> bool {
         matches!(self, Kind::Statement | Kind::Definition)
     }
 }
@@ -29,8 +32,10 @@ macro_rules! words {
         }
 
         impl $name {
+            /// All of them, in this order.
             pub const ALL: [$name; [$($text),*].len()] = [$($name::$variant),*];
 
+            /// Returns it as words that readers see.
             pub fn words(self) -> &'static str {
                 match self {
                     $($name::$variant => $text,)*
@@ -67,13 +72,14 @@ words! {
     DiffersAndExplained = "differs and explained",
     /// It does not, or our explanation of a difference fails.
     Differs = "differs",
+    /// The results do not decide it.
     #[default]
     CannotBeJudged = "cannot be judged",
 }
 
 impl Verdict {
     /// Returns the verdict as a sign, which needs no colour.
-    pub fn sign(self) -> char {
+    pub(crate) fn sign(self) -> char {
         match self {
             Verdict::Reproduced => '✓',
             Verdict::DiffersAndExplained => '≠',
@@ -86,37 +92,41 @@ impl Verdict {
 /// A statement or relation, judged; texts are saved as they are printed.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Check {
+    /// What it judges.
     pub kind: Kind,
     /// The author's word for a difference that is explained, such as `misprint`.
     #[serde(default, skip_serializing_if = "String::is_empty")]
-    pub why: String,
+    pub(crate) why: String,
     /// The sentence of which it is one reading of several; empty if it is the only one.
     #[serde(default, skip_serializing_if = "String::is_empty")]
-    pub sentence: String,
+    pub(crate) sentence: String,
+    /// The id of its statement or relation.
     pub id: String,
     /// Where it was printed; empty for a relation.
-    pub place: String,
+    pub(crate) place: String,
     /// What it states, in our words.
-    pub statement: String,
+    pub(crate) statement: String,
     /// What can be read there, in its shortest form.
-    pub expected: String,
-    pub found: Text,
+    pub(crate) expected: String,
+    pub(crate) found: Text,
     /// How far from the printed value a result may lie.
-    pub tolerance: Text,
-    pub reason: String,
+    pub(crate) tolerance: Text,
+    pub(crate) reason: String,
+    /// What the verdict rests on.
     pub basis: Basis,
+    /// What the numbers say.
     pub verdict: Verdict,
     /// What explains a difference, or what else a reader should know.
     pub note: Text,
 }
 
 impl Check {
-    pub fn new(kind: Kind, id: &str, statement: &str, found: impl Into<Text>) -> Check {
+    pub(crate) fn new(kind: Kind, id: &str, statement: &str, found: impl Into<Text>) -> Check {
         let (id, statement, found) = (id.into(), statement.into(), found.into());
         Check { kind, id, statement, found, ..Check::default() }
     }
 
-    pub fn judged(self, agrees: bool) -> Check {
+    pub(crate) fn judged(self, agrees: bool) -> Check {
         let verdict = if agrees { Verdict::Reproduced } else { Verdict::Differs };
         Check { verdict, ..self }
     }
@@ -131,10 +141,11 @@ impl Check {
         Check { verdict, ..self }.note(why)
     }
 
-    pub fn with_tolerance(self, tolerance: impl Into<Text>, reason: &str) -> Check {
+    pub(crate) fn with_tolerance(self, tolerance: impl Into<Text>, reason: &str) -> Check {
         Check { tolerance: tolerance.into(), reason: reason.into(), ..self }
     }
 
+    /// Sets the note, a sentence that readers see beside the verdict.
     pub fn note(self, note: impl Into<Text>) -> Check {
         Check { note: note.into(), ..self }
     }
@@ -147,12 +158,12 @@ impl Check {
     }
 
     /// Returns the author's word for the difference, if there is one and it is explained.
-    pub fn difference(&self) -> Option<&str> {
+    pub(crate) fn difference(&self) -> Option<&str> {
         let is_explained = self.verdict == Verdict::DiffersAndExplained;
         (is_explained && !self.why.is_empty()).then_some(&self.why)
     }
 
-    pub fn words(&self) -> &'static str {
+    pub(crate) fn words(&self) -> &'static str {
         match (self.kind, self.verdict) {
             (Kind::Statement | Kind::Definition, verdict) => verdict.words(),
             (Kind::Relation, Verdict::Reproduced) => "holds",

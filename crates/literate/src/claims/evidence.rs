@@ -4,26 +4,30 @@ use super::check::{Basis, Check};
 use super::level::CheckLevel;
 use super::published::{Published, PublishedError, Statement};
 use super::text::Text;
+use crate::claims::text;
 use crate::experiments::{self, Results};
 use crate::sample::Sampled;
 use crate::table::Missing;
-use crate::text;
 use crate::value::{Digits, Number, Provenance};
 use impact_numerics::estimates::with_error;
 use impact_numerics::statistics::Estimate;
 
+/// Why a rule makes no check.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// The file of statements and the rules do not fit together.
     #[error(transparent)]
     Published(#[from] PublishedError),
+    /// A result, table or cell is not there.
     #[error(transparent)]
     Experiment(#[from] experiments::Error),
     /// The samples are too small for what is asked: the statement cannot be judged.
     #[error("the results do not decide it")]
     Undecided,
-    #[error("check {id}: {error}")]
-    Check { id: String, error: Box<Error> },
+    /// Why the rule with this id makes none.
+    #[error("check {0}: {1}")]
+    Check(String, Box<Error>),
+    /// What is wrong with the rule.
     #[error("{0}")]
     Rule(String),
 }
@@ -31,7 +35,7 @@ pub enum Error {
 impl Error {
     pub(crate) fn cause(&self) -> &Error {
         match self {
-            Error::Check { error, .. } => error,
+            Error::Check(_, error) => error,
             error => error,
         }
     }
@@ -46,10 +50,14 @@ impl From<Missing> for Error {
 /// The check that a rule makes, or the reason why it makes none.
 pub type Judged = Result<Check, Error>;
 
+/// What a rule may look at.
 #[derive(Clone, Copy)]
 pub struct Evidence<'a> {
+    /// What the rule judges.
     pub statement: &'a Statement,
+    /// What the experiments found.
     pub results: &'a Results,
+    /// All that was printed.
     pub published: &'a Published,
     /// The level of a statistical check; `None` if the rule is not statistical.
     pub(super) level: Option<CheckLevel>,
@@ -188,7 +196,7 @@ impl Evidence<'_> {
     }
 
     /// Starts a check with what was found, and whether it agrees with what was printed.
-    pub fn found(&self, found: impl Into<Text>, agrees: bool) -> Check {
+    pub(crate) fn found(&self, found: impl Into<Text>, agrees: bool) -> Check {
         self.open(found).judged(agrees)
     }
 

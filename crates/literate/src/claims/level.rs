@@ -9,6 +9,7 @@ pub const FAMILY_LEVEL: f64 = 0.01;
 /// The level of each of several statistical checks, by Šidák's correction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CheckLevel {
+    /// How many statistical checks there are.
     pub claims: usize,
     /// The level of each one, 1 − (1 − [`FAMILY_LEVEL`])^(1/claims).
     pub each: f64,
@@ -18,7 +19,7 @@ pub struct CheckLevel {
 
 impl CheckLevel {
     /// Returns the level for this number of checks (at least one).
-    pub fn for_checks(claims: usize) -> CheckLevel {
+    pub(crate) fn for_checks(claims: usize) -> CheckLevel {
         let each = -pxfm::f_expm1(pxfm::f_log1p(-FAMILY_LEVEL) / claims.max(1) as f64);
         let quantile = (100.0 * normal_quantile(1.0 - each)).ceil() / 100.0;
         CheckLevel { claims, each, quantile }
@@ -32,7 +33,7 @@ impl CheckLevel {
     /// Returns how far below and above an estimate the true number may lie by chance, or `None` if
     /// that is unknown: the error is zero, as that of equal values is, or the sample has fewer than
     /// two.
-    pub fn room(&self, sampled: Sampled) -> Option<[f64; 2]> {
+    pub(crate) fn room(&self, sampled: Sampled) -> Option<[f64; 2]> {
         let (value, level) = (sampled.value, 1.0 - self.each);
         match sampled.sample {
             Sample::Trials(_) if !(0.0..=1.0).contains(&value) => Some([0.0; 2]),

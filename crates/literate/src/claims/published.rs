@@ -8,16 +8,18 @@ use crate::input::{one_line, toml_fault};
 use serde::Deserialize;
 use std::collections::BTreeSet;
 
+/// All that was printed: the entries of `published.toml`.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Published {
+    /// The entries `[[parameter]]`.
     #[serde(rename = "parameter")]
     pub parameters: Vec<Parameter>,
     #[serde(rename = "statement")]
-    pub statements: Vec<Statement>,
+    pub(crate) statements: Vec<Statement>,
     /// The texts of the checks, which stand in other files.
     #[serde(skip)]
-    pub words: Words,
+    pub(crate) words: Words,
 }
 
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -25,10 +27,11 @@ pub struct Published {
 pub struct Parameter {
     /// Its id, `«paper.id»` in the prose.
     pub id: String,
-    pub place: String,
-    pub value: f64,
+    pub(crate) place: String,
+    pub(crate) value: f64,
 }
 
+/// An entry `[[statement]]`: something that was printed.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table [[statement]]")]
 pub struct Statement {
@@ -39,19 +42,19 @@ pub struct Statement {
     pub kind: Kind,
     /// A word for the difference, if it differs: `misprint` or another; scores count each word.
     #[serde(default)]
-    pub why: String,
-    pub place: String,
+    pub(crate) why: String,
+    pub(crate) place: String,
     /// The id of the sentence of which it is one reading of several; empty if it is the only one.
     #[serde(default)]
-    pub sentence: String,
-    pub statement: String,
+    pub(crate) sentence: String,
+    pub(crate) statement: String,
     /// What can be read there, in its shortest form.
     pub printed: String,
     /// The number in it, if there is one; that of `printed`, where this is a number alone.
     pub value: Option<f64>,
     /// The place of its last printed digit: its decimals, and −3 if it was printed in thousands.
     #[serde(default)]
-    pub decimals: Option<i32>,
+    pub(crate) decimals: Option<i32>,
     #[serde(skip)]
     pub(crate) line: usize,
 }
@@ -86,11 +89,8 @@ impl Published {
         }
         for Parameter { id, value, .. } in &published.parameters {
             if !value.is_finite() {
-                return Err(PublishedError::in_entry(
-                    last_line(id),
-                    id,
-                    "value is not a finite number",
-                ));
+                let problem = "value is not a finite number";
+                return Err(PublishedError::in_entry(last_line(id), id, problem));
             }
         }
         let mut seen = BTreeSet::new();
@@ -105,11 +105,13 @@ impl Published {
         Ok(published)
     }
 
+    /// Returns the statement with this id; it is an error if there is none.
     pub fn statement(&self, id: &str) -> Result<&Statement, PublishedError> {
         let statement = self.statements.iter().find(|statement| statement.id == id);
         statement.ok_or_else(|| PublishedError::missing("statement", id))
     }
 
+    /// Returns the number of the parameter with this id; it is an error if there is none.
     pub fn parameter(&self, id: &str) -> Result<f64, PublishedError> {
         let parameter = self.parameters.iter().find(|parameter| parameter.id == id);
         parameter.map(|one| one.value).ok_or_else(|| PublishedError::missing("parameter", id))
@@ -204,6 +206,7 @@ impl Statement {
         }
     }
 
+    /// Returns the printed number; it is an error if there is none.
     pub fn number(&self) -> Result<f64, PublishedError> {
         self.value.ok_or_else(|| {
             let remedy = "write it as `value`, with `decimals`, as many as were printed";
@@ -212,6 +215,7 @@ impl Statement {
         })
     }
 
+    /// Returns half a unit of the last printed digit.
     pub fn half_unit(&self) -> f64 {
         0.5 * power_of_ten(-self.decimals.unwrap_or(0))
     }

@@ -8,11 +8,14 @@ use super::text::Text;
 use crate::experiments::{Profile, Results};
 use std::panic::Location;
 
+/// How a statement or a relation is judged.
 pub struct Rule {
+    /// The id of what it judges.
     pub id: &'static str,
     /// What it says, if it judges a relation between numbers and nothing that was printed.
     relation: Option<&'static str>,
     reads: Option<&'static str>,
+    /// Ids and numbers of the parameters that it judges with.
     pub uses: Vec<(&'static str, f64)>,
     basis: Option<Basis>,
     is_statistical: bool,
@@ -69,6 +72,7 @@ impl Rule {
         Rule { may_stay_open: true, ..self }
     }
 
+    /// Returns whether it judges something that was printed, and not a relation.
     pub fn is_of_statement(&self) -> bool {
         self.relation.is_none()
     }
@@ -90,9 +94,8 @@ impl Rule {
             let words = words.replace("{}", &statement.printed_digits().unwrap_or_default());
             if words != statement.printed {
                 let remedy = "and not its printed; restore the one that is wrong";
-                return Err(statement
-                    .fault(&format!("its check judges {words:?}, {remedy}"))
-                    .into());
+                let problem = format!("its check judges {words:?}, {remedy}");
+                return Err(statement.fault(&problem).into());
             }
         }
         let mut check = match (self.judge)(evidence) {
@@ -117,6 +120,7 @@ impl Rule {
     }
 }
 
+/// Returns the level at which each statistical check among these rules is made.
 pub fn level_of(rules: &[Rule]) -> CheckLevel {
     CheckLevel::for_checks(rules.iter().filter(|rule| rule.is_statistical).count())
 }
@@ -152,12 +156,13 @@ impl<'a> Judge<'a> {
         let is_strict = results.profile == Profile::Full && !rule.may_stay_open;
         let level = Some(level).filter(|_| allows_errors);
         let judged = rule.judged(&Evidence { statement, results, published, level, is_strict });
-        judged.map_err(|error| Error::Check { id: rule.id.into(), error: Box::new(error) })
+        judged.map_err(|error| Error::Check(rule.id.into(), Box::new(error)))
     }
 }
 
-/// Judges all statements, in their order, and then all relations. A statement without a rule stays
-/// open and [fails](Check::fails); a rule without a statement, or a number, is an error.
+/// Judges all statements, first those that rest on a measure of ours, and then all relations. A
+/// statement without a rule stays open and [fails](Check::fails); a rule without a statement, or a
+/// number, is an error.
 pub fn judge_all(
     published: &Published,
     rules: &[Rule],
@@ -177,6 +182,7 @@ pub fn judge_all(
     for rule in rules.iter().filter(|rule| !rule.is_of_statement()) {
         checks.push(judge.check(rule, &rule.statement(published)?)?);
     }
+    checks.sort_by_key(|check| (check.kind, check.basis != Basis::OurMeasure));
     Ok(checks)
 }
 
@@ -201,8 +207,8 @@ pub fn ids_blind_to_number(
 mod tests {
     use super::*;
     use crate::claims::ids_never_moved;
+    use crate::claims::text;
     use crate::table::Table;
-    use crate::text;
     use impact_numerics::statistics::Estimate;
     use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 

@@ -6,17 +6,18 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// Makes a [`Text`] of a sentence with `{}` for each number, and `{:3}` for three digits of it.
-#[macro_export]
 macro_rules! text {
     ($sentence:expr $(, $number:expr)* $(,)?) => {
         $crate::claims::Text::from_sentence($sentence, [$($crate::value::Number::from($number)),*])
     };
 }
 
+pub(crate) use text;
+
 /// A short text with numbers in it; its words are [`Number::Text`].
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(into = "String", from = "String")]
-pub struct Text(pub Vec<Number>);
+pub struct Text(pub(crate) Vec<Number>);
 
 impl Text {
     /// Fills the marks of a sentence, `{share}`, or `{share:2}` for two digits, with the numbers
@@ -39,17 +40,18 @@ impl Text {
         Ok(text)
     }
 
-    pub fn from_sentence(sentence: &str, numbers: impl IntoIterator<Item = Number>) -> Text {
+    pub(crate) fn from_sentence(sentence: &str, numbers: impl IntoIterator<Item = Number>) -> Text {
         let mut numbers = numbers.into_iter();
         Text::fill(sentence, |_| numbers.next()).unwrap_or_default()
     }
 
+    /// Returns the text with more at its end.
     pub fn then(mut self, more: impl Into<Text>) -> Text {
         self.0.extend(more.into().0);
         self
     }
 
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 }

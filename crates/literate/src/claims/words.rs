@@ -17,6 +17,7 @@ macro_rules! numbers {
     };
 }
 
+/// Numbers with the names by which texts call them: what [`numbers!`](crate::numbers) makes.
 pub type Numbers<'a> = &'a [(&'a str, Number)];
 
 /// The texts that a rule fills; pieces of them have a name that begins so: `note_open`.
@@ -34,7 +35,7 @@ pub struct Words(BTreeMap<String, (String, Texts)>);
 impl Words {
     /// Reads all files `claims/NAME.toml`, which have a table `[id]` for each check; what stands in
     /// `[shared]` holds for each check of the file without its own.
-    pub fn read(templates: &Templates) -> Result<Words, String> {
+    pub(crate) fn read(templates: &Templates) -> Result<Words, String> {
         let mut words = Words::default();
         let is_of_claims =
             |(path, _): &(&str, &str)| path.starts_with("claims/") && path.ends_with(".toml");

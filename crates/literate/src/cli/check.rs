@@ -2,7 +2,7 @@
 
 use super::common::{RunOptions, refuse_outdated, scores, verdict};
 use super::terminal::print;
-use crate::claims::{Check, Verdict, ids_blind_to_number, ids_never_moved};
+use crate::claims::{Check, Verdict, ids_blind_to_number, ids_never_moved, judge_all};
 use crate::failure::Failure;
 use crate::input::one_line;
 use crate::paper::Paper;
@@ -54,7 +54,7 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
         args.options.threads.run(|| -> Result<_, Failure> {
             let results = paper.results(&paper.experiments, &session)?;
             let blind = ids_blind_to_number(&published, &paper.rules, &results);
-            let checks = paper.checks(&results, &published)?;
+            let checks = judge_all(&published, &paper.rules, &results)?;
             let unmoved = ids_never_moved(&published, &paper.rules, &results, args.verbose);
             Ok((checks, blind, unmoved?))
         })?;

@@ -8,7 +8,7 @@ use crate::print::{Style, print as printed};
 use crate::report::document::{to_spelt_text, words_and_maths};
 use crate::report::folder::{self, SUMS};
 use crate::report::ledger::{self, Ledger};
-use crate::report::values::{self, Digits, Registry, Value};
+use crate::report::values::{self, Digits, Value, ValueRegistry};
 use crate::report::{Error, Files};
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -50,7 +50,7 @@ pub(super) fn run(args: Args) -> Result<(), Failure> {
 
 struct Parts {
     files: Files,
-    values: Registry,
+    values: ValueRegistry,
     ledger: Ledger,
 }
 
@@ -161,7 +161,7 @@ fn checks(before: &Ledger, after: &Ledger) -> Vec<String> {
 
 /// Lists numbers that changed, or changed their units: first what is no longer a number, then the
 /// others by the difference in standard errors, and last what only one report has.
-fn numbers(before: &Registry, after: &Registry) -> Vec<String> {
+fn numbers(before: &ValueRegistry, after: &ValueRegistry) -> Vec<String> {
     let ids: BTreeSet<&str> = before.iter().chain(after.iter()).map(|v| v.id.as_str()).collect();
     let mut changes = Vec::new();
     for id in ids {

@@ -57,6 +57,7 @@ enum Verb<V: Subcommand> {
 enum None {}
 
 impl Paper {
+    /// Runs the command line of the program; what it returns is the exit code.
     pub fn cli(self) -> ExitCode {
         self.cli_with(|none: None| match none {})
     }

@@ -11,6 +11,7 @@ use std::path::Path;
 
 const MOST: usize = 1024;
 
+/// Prints a line on standard error, behind the name of the program.
 pub fn warn(line: &str) {
     let program = std::env::current_exe().unwrap_or_default();
     let name = program.file_stem().unwrap_or_default().to_string_lossy();
@@ -45,6 +46,7 @@ pub fn written(result: io::Result<()>) -> Result<(), Failure> {
     }
 }
 
+/// Prints a text on standard output; a closed pipe is not an error.
 pub fn print(text: &str) -> Result<(), Failure> {
     let mut output = io::stdout().lock();
     written(output.write_all(text.as_bytes()).and_then(|()| output.flush()))
@@ -79,6 +81,7 @@ pub fn is_ignored(signal: i32) -> bool {
     mask.is_some_and(|mask| mask >> (signal - 1) & 1 == 1)
 }
 
+/// The option `--threads` of a verb, for `#[command(flatten)]`.
 #[derive(clap::Args)]
 pub struct Threads {
     /// Use this many threads instead of one for each core; the result is the same bit for bit.
@@ -92,6 +95,7 @@ fn threads(number: &str) -> Result<usize, String> {
 }
 
 impl Threads {
+    /// Returns how many threads there will be.
     pub fn number(&self) -> usize {
         self.asked.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from))
     }

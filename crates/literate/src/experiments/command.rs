@@ -22,8 +22,10 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// Hashes of what commands that tell versions printed, by their lines and variables.
 static VERSIONS: Mutex<BTreeMap<String, String>> = Mutex::new(BTreeMap::new());
 
+/// A program in any language that is run as an experiment.
 #[derive(Clone, Copy, Debug)]
 pub struct Command {
+    /// Its name, with which the names of its tables begin.
     pub name: &'static str,
     /// The program and its arguments, with blanks between, and quotes as in a shell. A program is
     /// found in `PATH` unless it has a slash; its bytes are part of what identifies a saved result.
@@ -32,6 +34,7 @@ pub struct Command {
     pub line: &'static str,
     /// Its parameters in a profile: an object.
     pub parameters: fn(Profile) -> Json,
+    /// Files and folders besides those, which are copied to where it runs.
     pub reads: &'static [&'static str],
     /// Files that it writes where it runs, such as pictures; they are saved with its tables.
     pub writes: &'static [&'static str],
@@ -52,6 +55,7 @@ struct Output {
 }
 
 impl Command {
+    /// Makes a command of this line that has no parameters and reads and writes nothing else.
     pub const fn new(name: &'static str, line: &'static str) -> Self {
         let (parameters, none): (fn(Profile) -> Json, _) = (|_| Json::Null, &[]);
         Command { name, line, parameters, reads: none, writes: none, env: none, versions: none }

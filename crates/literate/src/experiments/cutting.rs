@@ -23,6 +23,7 @@ const MOST_UNITS: u64 = 2000;
 /// The realisations of one row, and their work.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UnitRow {
+    /// How many realisations it has.
     pub realisations: usize,
     /// Work of one realisation: a core does [`WORK_PER_SECOND`] in about a second.
     pub work_of_one: u64,
@@ -44,6 +45,7 @@ pub struct Unit {
     pub number: usize,
     /// Place of its row.
     pub row: usize,
+    /// Which realisations of its row these are.
     pub realisations: Range<usize>,
     /// Work of these realisations.
     pub work: u64,
@@ -86,6 +88,7 @@ pub struct Cutting<P, U, T> {
     pub rows: fn(&P) -> Vec<UnitRow>,
     /// Runs realisations of a row, and advances the stage by the work of each.
     pub run_unit: fn(&P, &Unit, &Stage, &Progress) -> Result<U, Error>,
+    /// Joins the parts to the result.
     pub join: Join<P, U, T>,
 }
 

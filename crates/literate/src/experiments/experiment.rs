@@ -14,25 +14,28 @@ use std::sync::Arc;
 
 /// An experiment with parameters P and result T; U is what a unit of one that is cut gives.
 pub struct Experiment<P: 'static, T: 'static, U: 'static = ()> {
+    /// Its name, with which the names of its tables begin.
     pub name: &'static str,
     /// Files and folders of code that only this experiment needs, from the top of the project, the
     /// main one first: a change of them makes no other result stale. All other code counts for all.
     pub own: &'static [&'static str],
     /// Files and folders that it reads when it runs, from the top of the project.
     pub reads: &'static [&'static str],
+    /// Its parameters in a profile.
     pub parameters: fn(Profile) -> P,
+    /// How its result is found.
     pub how: How<P, T, U>,
+    /// Makes the tables of a result.
     pub tables: fn(&T) -> Vec<Table>,
 }
 
-/// Estimates the work of a run, of which a core does [`super::cutting::WORK_PER_SECOND`] in about
-/// a second, so that people know how long they will wait. No result depends on it.
-pub type Work<P> = fn(&P) -> u64;
-
+/// How the result of an experiment is found.
 pub enum How<P, T, U> {
     /// Read from a file that is committed, or known without a run; never saved.
     Read(fn(&Session<'_>) -> Result<T, Error>),
-    Whole(fn(&P, &Progress) -> Result<T, Error>, Work<P>),
+    /// Run as a whole, and saved; the second function estimates its work, of which a core does
+    /// [`super::cutting::WORK_PER_SECOND`] in about a second, and no result depends on it.
+    Whole(fn(&P, &Progress) -> Result<T, Error>, fn(&P) -> u64),
     /// Cut into units; progress is shown under the name.
     Cut(&'static str, Cutting<P, U, T>),
 }
@@ -49,6 +52,7 @@ impl<P, T> Experiment<P, T> {
     }
 }
 
+/// The result of any experiment, whose type only that experiment knows.
 pub type AnyResult = Arc<dyn Any + Send + Sync>;
 
 impl<P: Json, T: Json, U: Json> Experiment<P, T, U> {
@@ -119,6 +123,7 @@ impl<P: Json, T: Json, U: Json> Experiment<P, T, U> {
 
 /// What is known of every experiment, whatever its parameters and result are.
 pub trait AnyExperiment: Sync {
+    /// Returns its name.
     fn name(&self) -> &'static str;
 
     /// Returns the code that only this experiment needs.
@@ -149,6 +154,7 @@ pub trait AnyExperiment: Sync {
         true
     }
 
+    /// Returns all by which its saved result is known: name, profile, parameters and code.
     fn identity(&self, session: &Session<'_>) -> Result<Identity, Error> {
         let made_of = self.made_of(session)?;
         Ok(Identity::new(self.name(), session.profile, made_of, self.parameters(session.profile)?))
@@ -202,6 +208,7 @@ pub trait AnyExperiment: Sync {
     /// Reads or runs the experiment, and saves the result of a run.
     fn read_or_run(&self, identity: &Identity, session: &Session<'_>) -> Result<AnyResult, Error>;
 
+    /// Returns the tables of its result.
     fn tables(&self, result: &AnyResult) -> Vec<Table>;
 
     /// Returns its result as JSON, or `None` if it is a command.
@@ -225,14 +232,12 @@ impl<P: Json, T: Json, U: Json> AnyExperiment for Experiment<P, T, U> {
     }
 
     fn check_files(&self, project: &Project) -> Result<(), Error> {
-        let fault = |(problem, remedy)| Error::input(self.name, problem, remedy);
         // Without a checkout there is no code to look for.
         if let Some(absent) = self.own.iter().find(|path| !project.exists(path)) {
-            return Err(fault((
-                format!("it lists {absent}, which is not there"),
-                "correct the path",
-            )));
+            let problem = format!("it lists {absent}, which is not there");
+            return Err(Error::input(self.name, problem, "correct the path"));
         }
+        let fault = |(problem, remedy)| Error::input(self.name, problem, remedy);
         project.check_listed(self.reads).map_err(fault)
     }
 

@@ -15,11 +15,13 @@ mod store;
 
 pub use command::Command;
 pub use error::Error;
+pub(crate) use error::Fault;
 pub use experiment::{AnyExperiment, AnyResult, Experiment};
 pub(crate) use process::end_all;
 pub use profile::Profile;
 pub(crate) use progress::stop;
-pub use progress::{Progress, alive, be_quiet, say};
+pub use progress::{Progress, alive};
+pub(crate) use progress::{be_quiet, say};
 pub use results::{DerivedTables, Results};
 pub use session::Session;
 pub use store::Store;

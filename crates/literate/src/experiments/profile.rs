@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+/// The sizes of samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
 #[serde(rename_all = "lowercase")]
 pub enum Profile {
@@ -12,7 +13,7 @@ pub enum Profile {
 }
 
 impl Profile {
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Profile::Quick => "quick",
             Profile::Full => "full",

@@ -1,6 +1,6 @@
 //! Shows progress as plain lines on standard error, and says whether a run is to end.
 
-use super::Error;
+use super::{Error, Fault};
 use std::io::Write;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -11,7 +11,7 @@ static QUIET: AtomicBool = AtomicBool::new(false);
 
 static STOP: AtomicBool = AtomicBool::new(false);
 
-pub fn be_quiet() {
+pub(crate) fn be_quiet() {
     QUIET.store(true, Ordering::Relaxed);
 }
 
@@ -19,16 +19,19 @@ pub(crate) fn stop() {
     STOP.store(true, Ordering::Relaxed);
 }
 
+/// Where a run shows how far it is, and learns that it is to end.
 #[derive(Clone, Copy, Debug)]
 pub struct Progress {
     is_quiet: bool,
 }
 
 impl Progress {
+    /// Makes one that shows nothing.
     pub fn silent() -> Self {
         Progress { is_quiet: true }
     }
 
+    /// Makes one that prints on standard error, unless the program was told to be quiet.
     pub fn on_stderr() -> Self {
         Progress { is_quiet: QUIET.load(Ordering::Relaxed) }
     }
@@ -38,10 +41,12 @@ impl Progress {
         STOP.load(Ordering::Relaxed)
     }
 
+    /// Fails if the work was asked to end; a run asks this often.
     pub fn check(&self) -> Result<(), Error> {
-        if self.stopped() { Err(Error::Interrupted) } else { Ok(()) }
+        if self.stopped() { Err(Error(Fault::Interrupted)) } else { Ok(()) }
     }
 
+    /// Begins a stage with so much work in all, in any unit.
     pub fn stage(&self, name: &str, total: u64) -> Stage {
         let (name, began, done) = (name.to_string(), Instant::now(), Arc::new(AtomicU64::new(0)));
         let position = Arc::clone(&done);
@@ -51,6 +56,7 @@ impl Progress {
         Stage { done, _lines: lines }
     }
 
+    /// Prints a line, unless progress is not shown.
     pub fn say(&self, line: &str) {
         if !self.is_quiet {
             say(line);
@@ -59,7 +65,7 @@ impl Progress {
 }
 
 /// Prints one line on standard error. A full disk or a closed pipe is not an error.
-pub fn say(line: &str) {
+pub(crate) fn say(line: &str) {
     let _ = writeln!(std::io::stderr(), "{line}");
 }
 
@@ -87,6 +93,7 @@ pub struct Stage {
 }
 
 impl Stage {
+    /// Counts work as done, in the unit of the stage.
     pub fn advance(&self, units: u64) {
         self.done.fetch_add(units, Ordering::Relaxed);
     }

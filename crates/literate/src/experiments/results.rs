@@ -2,10 +2,10 @@
 
 use super::progress::say;
 use super::store::{Identity, Json};
-use super::{AnyExperiment, AnyResult, Command, Error, Experiment, Profile, Session};
+use super::{AnyExperiment, AnyResult, Command, Error, Experiment, Fault, Profile, Session};
 use crate::input::count;
 use crate::names::{self, Names};
-use crate::table::{Table, Tables, find_cell, find_number, find_table, table_name};
+use crate::table::{Missing, NO_NUMBER, Table, Tables, find_cell, find_table, table_name};
 use crate::value::Value;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -16,8 +16,9 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 /// was not run.
 pub type DerivedTables = fn(&Results, &[Table]) -> Option<Vec<Table>>;
 
+/// The results of experiments, and the tables that are made of them.
 pub struct Results {
-    pub profile: Profile,
+    pub(crate) profile: Profile,
     results: Vec<(&'static dyn AnyExperiment, AnyResult)>,
     /// The tables that need several of them.
     derived: Vec<DerivedTables>,
@@ -28,9 +29,10 @@ pub struct Results {
 }
 
 impl Results {
+    /// Returns the result of an experiment; it is an error if that was not run.
     pub fn of<P, T: Json, U>(&self, experiment: &Experiment<P, T, U>) -> Result<&T, Error> {
         self.note(experiment.name);
-        self.result(experiment.name)?.downcast_ref().ok_or(Error::NotRun(experiment.name))
+        self.result(experiment.name)?.downcast_ref().ok_or(Error(Fault::NotRun(experiment.name)))
     }
 
     fn note(&self, name: &str) {
@@ -76,7 +78,7 @@ impl Results {
     fn result(&self, name: &'static str) -> Result<&AnyResult, Error> {
         let mut results = self.results.iter();
         let pair = results.find(|(experiment, _)| experiment.name() == name);
-        pair.map(|(_, result)| result).ok_or(Error::NotRun(name))
+        pair.map(|(_, result)| result).ok_or(Error(Fault::NotRun(name)))
     }
 
     /// Returns the result of an experiment for a test to change; tables are made anew.
@@ -87,14 +89,14 @@ impl Results {
     }
 
     /// Returns the tables of all results, by name. Fails if two have one name or one has a fault.
-    pub fn tables(&self) -> Result<&Tables, Error> {
+    pub(crate) fn tables(&self) -> Result<&Tables, Error> {
         let again = || {
             let results = self.results.iter();
             self.joined(
                 results.flat_map(|(experiment, result)| tables(*experiment, result)).collect(),
             )
         };
-        self.tables.get_or_init(again).as_ref().map_err(|fault| Error::Table(fault.clone()))
+        self.tables.get_or_init(again).as_ref().map_err(|fault| Error(Fault::Table(fault.clone())))
     }
 
     #[cfg(test)]
@@ -129,12 +131,14 @@ impl Results {
         Ok(tables)
     }
 
+    /// Returns a table by its name, `experiment.table`; it is an error if there is none.
     #[track_caller]
     pub fn table(&self, name: &str) -> Result<&Table, Error> {
         self.note(name);
         Ok(find_table(self.tables()?, name)?)
     }
 
+    /// Returns the bytes of a file in the `writes` of a command; it is an error if there is none.
     pub fn file(&self, command: &Command, path: &str) -> Result<Vec<u8>, Error> {
         let output = self.result(command.name)?;
         let problem = format!("{} wrote no such file", command.name);
@@ -144,7 +148,7 @@ impl Results {
 
     /// Returns the cell with this address: `theory.jump.p_jump`.
     #[track_caller]
-    pub fn cell(&self, address: &str) -> Result<&Value, Error> {
+    pub(crate) fn cell(&self, address: &str) -> Result<&Value, Error> {
         self.note(table_name(address).unwrap_or(address));
         Ok(find_cell(self.tables()?, address)?)
     }
@@ -152,13 +156,15 @@ impl Results {
     /// Returns the number with this address.
     #[track_caller]
     pub fn number(&self, address: &str) -> Result<f64, Error> {
-        self.note(table_name(address).unwrap_or(address));
-        Ok(find_number(self.tables()?, address)?)
+        match self.cell(address)?.as_f64() {
+            Some(number) => Ok(number),
+            None => Err(Missing::new(address, NO_NUMBER).into()),
+        }
     }
 
     /// Returns the results of experiments in this order: saved results where they are fresh, and
     /// else results of runs.
-    pub fn run(
+    pub(crate) fn run(
         experiments: &[&'static dyn AnyExperiment],
         derived: &[DerivedTables],
         session: &Session<'_>,

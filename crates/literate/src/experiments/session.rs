@@ -10,12 +10,16 @@ use crate::input::count;
 use crate::project::Project;
 use crate::prose::Templates;
 
+/// What a run of the program works with.
 #[derive(Debug)]
 pub struct Session<'a> {
+    /// Where files are found.
     pub project: &'a Project,
+    /// The prose.
     pub templates: Templates,
-    pub profile: Profile,
-    pub store: Store,
+    pub(crate) profile: Profile,
+    pub(crate) store: Store,
+    /// Where progress is shown.
     pub progress: Progress,
     /// What results are made of.
     pub(crate) code: Code,

@@ -6,7 +6,7 @@
 //! not, or if the file is damaged, the experiment is run again, and the reason is printed.
 
 use super::cutting::Unit;
-use super::{Error, Profile};
+use super::{Error, Fault, Profile};
 use crate::input::{WRITING, is_absent, one_line, read_text, sha256};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -87,6 +87,7 @@ impl Identity {
     }
 }
 
+/// The folder of saved results.
 #[derive(Clone, Debug)]
 pub struct Store {
     folder: Option<PathBuf>,
@@ -98,6 +99,7 @@ impl Store {
         Store { folder: Some(folder.into()) }
     }
 
+    /// Makes a store that saves and finds nothing.
     pub fn nowhere() -> Self {
         Store { folder: None }
     }
@@ -108,7 +110,7 @@ impl Store {
     }
 
     /// Returns the saved result, or why it must be run, as [`Store::fresh`] does.
-    pub fn load<T: DeserializeOwned>(&self, identity: &Identity) -> Result<T, String> {
+    pub(crate) fn load<T: DeserializeOwned>(&self, identity: &Identity) -> Result<T, String> {
         let saved = self.fresh(identity)?;
         let body = saved.split('\n').nth(2).unwrap_or_default();
         serde_json::from_str(body).map_err(|_| run_again(OLDER_FORMAT))
@@ -124,7 +126,7 @@ impl Store {
 
     /// Returns the text of a saved file that is whole and was made of the same, or why the result
     /// must be run, in one line: `run`, `run again, Cargo.lock changed`.
-    pub fn fresh(&self, identity: &Identity) -> Result<String, String> {
+    pub(crate) fn fresh(&self, identity: &Identity) -> Result<String, String> {
         let saved = match self.path(identity).map(|path| read_text(&path)) {
             Some(Ok(saved)) => saved,
             Some(Err(error)) if !is_absent(&error) => {
@@ -137,21 +139,21 @@ impl Store {
     }
 
     /// Makes the folder, so that one which cannot be made is known before a run.
-    pub fn prepare(&self) -> Result<(), Error> {
+    pub(crate) fn prepare(&self) -> Result<(), Error> {
         let Some(folder) = &self.folder else { return Ok(()) };
-        let failed = |source| Error::Store { path: folder.clone(), source };
+        let failed = |source| Error(Fault::Store { path: folder.clone(), source });
         std::fs::create_dir_all(folder).map_err(failed)
     }
 
-    pub fn save<T: Json>(&self, identity: &Identity, result: &T) -> Result<(), Error> {
+    pub(crate) fn save<T: Json>(&self, identity: &Identity, result: &T) -> Result<(), Error> {
         let Some(path) = self.path(identity) else { return Ok(()) };
         let [made_of, body] = [to_json(identity, identity)?, to_json(identity, result)?];
         let file = format!("{}\n{made_of}\n{body}\n", digest(&[&made_of, &body]));
-        write_whole(&path, &file).map_err(|source| Error::Store { path, source })
+        write_whole(&path, &file).map_err(|source| Error(Fault::Store { path, source }))
     }
 
     /// Removes the units of a result, and the result too if it is to be run again.
-    pub fn remove(&self, identity: &Identity, is_to_run: bool) -> Result<(), Error> {
+    pub(crate) fn remove(&self, identity: &Identity, is_to_run: bool) -> Result<(), Error> {
         let stem = format!("{}-", identity.file_stem());
         let is_unit = |path: &PathBuf| {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
@@ -162,7 +164,9 @@ impl Store {
         let units = files.flatten().map(|entry| entry.path()).filter(is_unit);
         for path in units.chain(self.path(identity).filter(|_| is_to_run)) {
             match std::fs::remove_file(&path) {
-                Err(source) if !is_absent(&source) => return Err(Error::Store { path, source }),
+                Err(source) if !is_absent(&source) => {
+                    return Err(Error(Fault::Store { path, source }));
+                }
                 _ => (),
             }
         }
@@ -190,7 +194,7 @@ fn parse_identity(saved: &str) -> Result<Identity, &'static str> {
 fn to_json<T: Json>(identity: &Identity, result: &T) -> Result<String, Error> {
     let json = serde_json::to_string(result).ok();
     let is_same = |json: &String| serde_json::from_str(json).is_ok_and(|read: T| read == *result);
-    json.filter(is_same).ok_or_else(|| Error::Lost { experiment: identity.experiment.clone() })
+    json.filter(is_same).ok_or_else(|| Error(Fault::Lost(identity.experiment.clone())))
 }
 
 /// Writes a temporary file and renames it, so that no file ever has half a result.
@@ -228,13 +232,13 @@ mod tests {
         assert_eq!(format!("{again:?}"), format!("{result:?}"));
         for bad in [f64::NAN, f64::INFINITY] {
             let bad = store.save(&identity, &vec![None, Some(bad)]);
-            assert!(matches!(bad, Err(Error::Lost { .. })));
+            assert!(matches!(bad, Err(Error(Fault::Lost(_)))));
         }
         #[derive(PartialEq, Serialize, Deserialize)]
         struct Partly(Option<f64>, #[serde(skip)] u32);
-        assert!(matches!(store.save(&identity, &Partly(None, 1)), Err(Error::Lost { .. })));
+        assert!(matches!(store.save(&identity, &Partly(None, 1)), Err(Error(Fault::Lost(_)))));
         let keys = BTreeMap::from([((1, 2), 3)]);
-        assert!(matches!(to_json(&identity, &keys), Err(Error::Lost { .. })));
+        assert!(matches!(to_json(&identity, &keys), Err(Error(Fault::Lost(_)))));
     }
 
     #[test]

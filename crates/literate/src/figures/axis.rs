@@ -3,7 +3,7 @@
 //! An axis is a coordinate of plotters: `map` gives the place on the sheet, `key_points` the ticks.
 //! A logarithmic one is linear over log10 of the data, taken with a portable function.
 
-use super::error::Error;
+use super::error::{Error, Fault};
 use super::markup::spelled;
 use crate::decimal::Decimal;
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged};
@@ -15,6 +15,7 @@ use std::ops::Range;
 /// A tick; minor ones have no label.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tick {
+    /// Its value on the axis.
     pub at: f64,
     /// With mark-up.
     pub label: Option<String>,
@@ -26,16 +27,19 @@ impl Tick {
     }
 }
 
+/// An axis: its range, scale, label and ticks.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Axis {
+    /// The value at the left or lower end.
     pub lo: f64,
+    /// The value at the other end.
     pub hi: f64,
     /// Whether the scale is logarithmic; a value that is not positive lies below every range.
     pub is_log: bool,
     /// With mark-up; empty for none.
     pub label: String,
     /// Name and unit of its column in data files, if they are not in the label.
-    pub column: Option<String>,
+    pub(crate) column: Option<String>,
     /// From low to high.
     pub ticks: Vec<Tick>,
 }
@@ -110,7 +114,7 @@ impl Axis {
         if is_range && rises && differ && !self.ticks.is_empty() {
             return Ok(());
         }
-        Err(Error::Axis { label: spelled(&self.label), low: self.lo, high: self.hi })
+        Err(Error(Fault::Axis { label: spelled(&self.label), low: self.lo, high: self.hi }))
     }
 
     /// Makes a logarithmic axis from 10^`lo` to 10^`hi`, labelled every `every` decades. If `every`
@@ -154,7 +158,7 @@ impl Axis {
     }
 
     /// Labels 1, 2 and 5 of each decade, for a short logarithmic axis.
-    pub fn label_1_2_5(mut self) -> Self {
+    pub(crate) fn label_1_2_5(mut self) -> Self {
         for tick in &mut self.ticks {
             let (n, power) = decimal_of(tick.at).unwrap_or_default();
             tick.label = [1, 2, 5].contains(&n).then(|| exact(n, power, power));
@@ -170,24 +174,24 @@ impl Axis {
 
     /// Returns the name of its column in data files, with the unit in brackets at the end: as
     /// given, or from the label in plain text. Without one the unit is `1`.
-    pub fn column_name(&self) -> String {
+    pub(crate) fn column_name(&self) -> String {
         let words = self.column.clone().unwrap_or_else(|| spelled(&self.label));
         if words.ends_with(')') && words.contains(" (") { words } else { words + " (1)" }
     }
 
     /// Returns where a value lies on the scale: the value or its logarithm.
-    pub fn position(&self, value: f64) -> f64 {
+    pub(crate) fn position(&self, value: f64) -> f64 {
         if !self.is_log {
             return value;
         }
         if value <= 0.0 { f64::NEG_INFINITY } else { f_log10(value) }
     }
 
-    pub fn value(&self, position: f64) -> f64 {
+    pub(crate) fn value(&self, position: f64) -> f64 {
         if self.is_log { f_exp10(position) } else { position }
     }
 
-    pub fn ends(&self) -> (f64, f64) {
+    pub(crate) fn ends(&self) -> (f64, f64) {
         (self.position(self.lo), self.position(self.hi))
     }
 
@@ -291,6 +295,7 @@ pub fn in_powers(number: f64) -> String {
     }
 }
 
+/// Writes a power of ten with mark-up, `10^{−3}`.
 pub fn power_of_ten(exponent: i32) -> String {
     format!("10^{{{}}}", exponent.to_string().replace('-', "−"))
 }

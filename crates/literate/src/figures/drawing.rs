@@ -14,7 +14,7 @@
 //! - `ErrorBar` draws a disc over the symbol. Ours has caps only.
 //! - A style has no fill with an edge, no dash, and no rim of words ([`super::style::rimmed`]).
 
-use super::error::Error;
+use super::error::{Error, Fault};
 use super::font::{self, Placed};
 use super::markup;
 use super::path::{Point, Step, circle, inside, polygon, polyline};
@@ -30,13 +30,18 @@ use std::collections::btree_map::Entry;
 /// A rectangle of the sheet in grid units.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Frame {
+    /// Distance of the left side from the left edge of the sheet.
     pub left: i32,
+    /// Distance of the upper side from the upper edge.
     pub top: i32,
+    /// Distance of the right side from the left edge.
     pub right: i32,
+    /// Distance of the lower side from the upper edge.
     pub bottom: i32,
 }
 
 impl Frame {
+    /// Makes the rectangle with these sides.
     pub const fn new(left: i32, top: i32, right: i32, bottom: i32) -> Self {
         Frame { left, top, right, bottom }
     }
@@ -78,11 +83,11 @@ pub enum Element {
 /// A drawing of column width.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Drawing {
-    pub height: u32,
+    pub(crate) height: u32,
     /// From back to front.
-    pub elements: Vec<Element>,
+    pub(crate) elements: Vec<Element>,
     /// Outlines of the glyphs in its labels.
-    pub glyphs: Glyphs,
+    pub(crate) glyphs: Glyphs,
 }
 
 pub(super) type Outcome = Result<(), DrawingErrorKind<Error>>;
@@ -91,7 +96,8 @@ pub(super) type Outcome = Result<(), DrawingErrorKind<Error>>;
 fn in_palette(colour: BackendColor) -> Result<RGBColor, Error> {
     let (r, g, b) = colour.rgb;
     let known = PALETTE.iter().any(|(_, known)| *known == RGBColor(r, g, b));
-    let missing = || Error::Drawing(format!("#{r:02x}{g:02x}{b:02x} is no colour of the prelude"));
+    let missing =
+        || Error(Fault::Drawing(format!("#{r:02x}{g:02x}{b:02x} is no colour of the prelude")));
     known.then_some(RGBColor(r, g, b)).ok_or_else(missing)
 }
 
@@ -116,7 +122,7 @@ impl Drawing {
     }
 
     /// Returns whether a rectangle is free of lines, symbols and words from left to right.
-    pub fn is_free(&self, frame: Frame) -> bool {
+    pub(crate) fn is_free(&self, frame: Frame) -> bool {
         self.elements.iter().all(|element| match element {
             Element::Shape(path, _, Some(_)) => !crosses(path, frame),
             Element::Label(label) if !label.upwards => !stands_in(label, frame),
@@ -226,7 +232,7 @@ impl DrawingBackend for Drawing {
         let upwards = match style.transform() {
             FontTransform::None => false,
             FontTransform::Rotate270 => true,
-            _ => return Err(Error::Drawing(format!("{words:?} would be upside down")).into()),
+            _ => return Err(Error(Fault::Drawing(format!("upside down: {words:?}"))).into()),
         };
         let scaled = |units: i32| units * style.size() as i32 / font::EM;
         let ((along, size), up) = if upwards {
@@ -239,7 +245,7 @@ impl DrawingBackend for Drawing {
         let heights = [base - scaled(font::CAP_HEIGHT), base];
         let is_in = |place: i32, (low, high): (i32, i32)| (low..=high).contains(&place);
         if !ends.iter().all(|end| is_in(*end, size)) || !heights.iter().all(|y| is_in(*y, up.1)) {
-            return Err(Error::OffSheet(markup::plain(words)).into());
+            return Err(Error(Fault::OffSheet(markup::plain(words))).into());
         }
         self.elements.push(Element::Label(Label {
             words: markup::plain(words),

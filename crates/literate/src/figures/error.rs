@@ -4,14 +4,16 @@ use crate::experiments;
 use crate::table::Missing;
 use plotters::drawing::DrawingAreaErrorKind;
 use plotters_backend::DrawingErrorKind;
-use thiserror::Error;
 
-#[derive(Debug, Error)]
-pub enum Error {
+/// Why a figure cannot be drawn; its message says what to change.
+#[derive(Debug, thiserror::Error)]
+#[error(transparent)]
+pub struct Error(pub(crate) Fault);
+
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum Fault {
     #[error("a figure lacks its data: {0}")]
-    Data(#[from] experiments::Error),
-    #[error("a figure lacks its data: {0}")]
-    Missing(#[from] Missing),
+    Data(experiments::Error),
     #[error("row {row} of the series {series:?}, ({x}, {y}), {}", outside(*x, *y))]
     Outside { series: String, row: usize, x: f64, y: f64 },
     #[error(
@@ -37,7 +39,7 @@ pub enum Error {
     #[error("the plot has no series; add one")]
     NoSeries,
     #[error("the picture {0}")]
-    Picture(String),
+    Picture(&'static str),
     #[error("the shipped fonts have no glyph for {character:?} in the label {label:?}")]
     Glyph { character: char, label: String },
     #[error("drawing failed: {0}")]
@@ -52,7 +54,20 @@ fn outside(x: f64, y: f64) -> &'static str {
     }
 }
 
+/// The outcome of drawing something on a sheet or a panel.
 pub type Drawn = Result<(), Error>;
+
+impl From<experiments::Error> for Error {
+    fn from(error: experiments::Error) -> Self {
+        Error(Fault::Data(error))
+    }
+}
+
+impl From<Missing> for Error {
+    fn from(missing: Missing) -> Self {
+        experiments::Error::from(missing).into()
+    }
+}
 
 impl From<Error> for DrawingErrorKind<Error> {
     fn from(error: Error) -> Self {
@@ -64,7 +79,7 @@ impl From<DrawingAreaErrorKind<Error>> for Error {
     fn from(error: DrawingAreaErrorKind<Error>) -> Self {
         match error {
             DrawingAreaErrorKind::BackendError(DrawingErrorKind::DrawingError(error)) => error,
-            other => Error::Drawing(other.to_string()),
+            other => Error(Fault::Drawing(other.to_string())),
         }
     }
 }

@@ -1,25 +1,28 @@
 //! Holds a finished figure: the picture, its description and its data.
 
 use super::drawing::{Drawing, Element};
-use super::error::Error;
+use super::error::{Error, Fault};
 use super::svg::escape;
 use crate::table::DataFile;
 
+/// A finished figure.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Figure {
     /// The id in the list of the paper, with which the names of its files begin.
     pub id: String,
+    /// The title, which the picture carries and lists show.
     pub title: String,
     /// What readers see, for those who do not see it.
     pub description: Description,
-    pub drawing: Drawing,
+    pub(crate) drawing: Drawing,
     /// Files that are shown instead of the drawing: the ends of their names, and their bytes.
     pub(crate) files: Vec<(&'static str, Vec<u8>)>,
+    /// The data that it shows, one file for each panel.
     pub data: Vec<DataFile>,
     /// Path of the item that draws it.
-    pub source: String,
+    pub(crate) source: String,
     /// Names of the experiments whose results it shows.
-    pub experiments: Vec<&'static str>,
+    pub(crate) experiments: Vec<&'static str>,
 }
 
 impl Figure {
@@ -35,22 +38,22 @@ impl Figure {
                 [0xff, 0xd8, 0xff, ..] => "jpg",
                 [b'%', b'P', b'D', b'F', ..] => "pdf",
                 _ if is_svg => "svg",
-                _ => return Err(Error::Picture("is not a png, jpg, svg or pdf".into())),
+                _ => return Err(Error(Fault::Picture("is not a png, jpg, svg or pdf"))),
             };
             figure.files.push((format, bytes.to_vec()));
         }
         let is_all = |format| figure.files.iter().all(|file| file.0 == format);
         if is_all("pdf") {
-            return Err(Error::Picture("cannot be shown on pages; add an svg, png or jpg".into()));
+            return Err(Error(Fault::Picture("cannot be shown on pages; add an svg, png or jpg")));
         }
         if is_all("svg") {
-            return Err(Error::Picture("cannot be shown in LaTeX; add a pdf, png or jpg".into()));
+            return Err(Error(Fault::Picture("cannot be shown in LaTeX; add a pdf, png or jpg")));
         }
         Ok(figure)
     }
 
     /// Returns the names of the files that pages and LaTeX show.
-    pub fn names(&self) -> [String; 2] {
+    pub(crate) fn names(&self) -> [String; 2] {
         [("pdf", "svg"), ("svg", "pdf")].map(|(not, drawn)| {
             let file = self.files.iter().find(|(format, _)| *format != not);
             format!("{}.{}", self.id, file.map_or(drawn, |(format, _)| format))
@@ -58,7 +61,7 @@ impl Figure {
     }
 
     /// Returns the files of the picture by name; one that is drawn names its licence.
-    pub fn files(&self, license: &str) -> Vec<(String, Vec<u8>)> {
+    pub(crate) fn files(&self, license: &str) -> Vec<(String, Vec<u8>)> {
         if self.files.is_empty() {
             let [svg, pdf] = self.names();
             let license = format!("\n<metadata>{}</metadata>\n<style>", escape(license));
@@ -79,12 +82,13 @@ impl Figure {
         drawn.chain([self.title.as_str()])
     }
 
+    /// Returns the picture as a file of its own.
     pub fn svg(&self) -> String {
         self.drawing.svg(false, &self.id, &self.title, &self.description.text) + "\n"
     }
 
     /// Returns the picture as an element of a page.
-    pub fn on_page(&self) -> String {
+    pub(crate) fn on_page(&self) -> String {
         if self.files.is_empty() {
             return self.drawing.svg(true, &self.id, &self.title, &self.description.text);
         }
@@ -96,6 +100,7 @@ impl Figure {
 /// What readers see in a figure, in words.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Description {
+    /// The words.
     pub text: String,
 }
 

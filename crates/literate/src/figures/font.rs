@@ -1,6 +1,6 @@
 //! Sets labels in type, as glyph outlines of the two shipped faces: the same on every machine.
 
-use super::error::Error;
+use super::error::{Error, Fault};
 use super::markup::{self, Face, Level};
 use super::path::Step;
 use ab_glyph::{Font, FontRef, GlyphId, OutlineCurve, Point};
@@ -47,7 +47,7 @@ fn font(face: Face) -> Result<&'static FontRef<'static>, Error> {
         let italic: &[u8] = include_bytes!("../../fonts/LibertinusSerif-Italic.otf");
         [regular, italic].map(|file| FontRef::try_from_slice(file).ok())
     });
-    let unreadable = || Error::Drawing("a shipped font file cannot be read".into());
+    let unreadable = || Error(Fault::Drawing("a shipped font file cannot be read".into()));
     FACES[face as usize].as_ref().ok_or_else(unreadable)
 }
 
@@ -85,7 +85,7 @@ pub fn set(label: &str, size: i32) -> Result<(Vec<Placed>, i32), Error> {
         for character in piece.text.chars() {
             let id = face.glyph_id(character);
             if id.0 == 0 {
-                return Err(Error::Glyph { character, label: label.into() });
+                return Err(Error(Fault::Glyph { character, label: label.into() }));
             }
             if !character.is_whitespace() {
                 let (face, glyph) = (piece.face, id.0);
@@ -121,7 +121,7 @@ pub fn outline(placed: &Placed) -> Result<Vec<Step>, Error> {
             OutlineCurve::Line(a, b) => (a, b, Step::Line(p(b))),
             OutlineCurve::Cubic(a, b, c, e) => (a, e, Step::Curve([p(b), p(c), p(e)])),
             OutlineCurve::Quad(..) => {
-                return Err(Error::Drawing("the shipped fonts have cubic curves only".into()));
+                return Err(Error(Fault::Drawing("shipped fonts have cubic curves only".into())));
             }
         };
         if at != Some(*from) {

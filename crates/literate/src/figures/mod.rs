@@ -16,11 +16,11 @@ mod series;
 mod style;
 mod svg;
 
-pub use drawing::{Drawing, Glyphs};
+pub(crate) use drawing::Glyphs;
 pub use error::{Drawn, Error};
 pub use figure::{Description, Figure};
 pub(crate) use markup::plain;
-pub use svg::{escape, outlines};
+pub(crate) use svg::{escape, outlines};
 
 /// What a figure is drawn with, for one line of imports.
 pub mod prelude {
@@ -33,7 +33,7 @@ pub mod prelude {
     pub use super::style::*;
     pub use super::{Description, Drawn, Error, Figure};
     pub use crate::describe;
-    pub use plotters::element::{EmptyElement, PathElement, Polygon, Rectangle, Text};
+    pub use plotters::element::{PathElement, Polygon, Rectangle, Text};
     pub use plotters::style::text_anchor::{HPos, VPos};
     pub use plotters::style::{Color, FontTransform, RGBColor};
 }

@@ -5,7 +5,7 @@
 use super::axis::{Axis, Tick};
 use super::drawing::{Drawing, Frame};
 use super::elements::CustomElement;
-use super::error::{Drawn, Error};
+use super::error::{Drawn, Error, Fault};
 use super::figure::{Description, Figure};
 use super::font;
 use super::markup::spelled;
@@ -27,6 +27,7 @@ pub type SheetArea = DrawingArea<Drawing, Shift>;
 
 /// A figure in the making.
 pub struct Sheet {
+    /// The whole sheet.
     pub area: SheetArea,
     drawing: Rc<RefCell<Drawing>>,
     records: RefCell<Vec<Rc<RefCell<Record>>>>,
@@ -94,8 +95,11 @@ pub enum Outside {
 pub struct Panel {
     /// The panel as a drawing area of plotters, in units of the data.
     pub area: DrawingArea<Drawing, Cartesian2d<Axis, Axis>>,
+    /// Where it stands on the sheet.
     pub frame: Frame,
+    /// The horizontal axis.
     pub x: Axis,
+    /// The vertical axis.
     pub y: Axis,
     drawing: Rc<RefCell<Drawing>>,
     pub(super) record: Rc<RefCell<Record>>,
@@ -103,6 +107,7 @@ pub struct Panel {
     pub(super) outside: Outside,
 }
 
+/// The names of the panels of a figure.
 pub const LETTERS: [&str; 6] = ["(a)", "(b)", "(c)", "(d)", "(e)", "(f)"];
 
 const TICK: i32 = 85;
@@ -292,12 +297,12 @@ impl Panel {
         let mut ends = Vec::new();
         for (text, points, colour) in curves {
             let end = points.as_ref().iter().rfind(|point| self.contains(**point));
-            let end = end.ok_or_else(|| Error::Empty(spelled(text)))?;
+            let end = end.ok_or_else(|| Error(Fault::Empty(spelled(text))))?;
             ends.push((self.area.map_coordinate(end), text, *colour));
         }
         let heights: Vec<i32> = ends.iter().map(|(at, ..)| at.1).collect();
         let rows = (self.frame.top, self.frame.bottom);
-        let places = spread(&heights, LINE_HEIGHT, rows).ok_or(Error::NoRoom(ends.len()))?;
+        let places = spread(&heights, LINE_HEIGHT, rows).ok_or(Error(Fault::NoRoom(ends.len())))?;
         for (((x, _), text, colour), y) in ends.into_iter().zip(places) {
             let style = rimmed(SMALL, colour, HPos::Left, VPos::Center);
             self.text_on_sheet(text, (x + 100, y), style)?;

@@ -11,7 +11,7 @@ use plotters::style::RGBColor;
 use std::collections::BTreeMap;
 
 impl Drawing {
-    pub fn pdf(&self, title: &str) -> Vec<u8> {
+    pub(crate) fn pdf(&self, title: &str) -> Vec<u8> {
         // A pixel is 3/4 of a point.
         let width = 0.75 * (WIDTH * PIXELS_PER_HUNDRED / 100) as f32;
         let scale = width / WIDTH as f32;

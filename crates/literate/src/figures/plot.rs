@@ -3,7 +3,7 @@
 
 use super::axis::{self, Axis};
 use super::drawing::Frame;
-use super::error::Error;
+use super::error::{Error, Fault};
 use super::figure::{Description, Figure};
 use super::font;
 use super::panel::{self, Outside, Panel, Sheet};
@@ -46,6 +46,7 @@ const COLOURS: [RGBColor; 6] = [INK, BLUE, RED, GREEN, ORANGE, PURPLE];
 const DASHES: [Dash; 4] = [SOLID, LONG, SHORT, ALTERNATE];
 
 impl Plot {
+    /// Makes an empty plot with linear axes.
     pub fn new() -> Self {
         Plot { mark_size: MEDIUM, ..Plot::default() }
     }
@@ -56,6 +57,7 @@ impl Plot {
         self
     }
 
+    /// Labels the vertical axis, as [`Plot::x`] does the other.
     pub fn y(mut self, label: &str) -> Self {
         self.y.label = label.into();
         self
@@ -67,6 +69,7 @@ impl Plot {
         self.x(label)
     }
 
+    /// Labels the vertical axis and makes it logarithmic.
     pub fn log_y(mut self, label: &str) -> Self {
         self.y.is_log = true;
         self.y(label)
@@ -78,6 +81,7 @@ impl Plot {
         self
     }
 
+    /// Shows y from `low` to `high`; what lies outside is cut.
     pub fn y_range(mut self, low: f64, high: f64) -> Self {
         self.y.range = Some([low, high]);
         self
@@ -171,13 +175,13 @@ impl Plot {
     /// Draws the plot and returns sheet and panel, to which plotters can add series and elements.
     pub fn draw(mut self) -> Result<(Sheet, Panel), Error> {
         let (x, y) = self.axes();
-        let first = self.series.first().ok_or(Error::NoSeries)?;
+        let first = self.series.first().ok_or(Error(Fault::NoSeries))?;
         for (at, series) in self.series.iter().enumerate() {
             let is_same = |other: &Series| {
                 (&other.name, other.symbol.is_some()) == (&series.name, series.symbol.is_some())
             };
             if self.series[..at].iter().any(is_same) {
-                return Err(Error::SameName(series.name.clone()));
+                return Err(Error(Fault::SameName(series.name.clone())));
             }
         }
         let has_names = self.series.iter().any(|series| series.name != first.name);
@@ -185,7 +189,7 @@ impl Plot {
         let mut right = WIDTH as i32 - 150 - panel::widest_number(&x)? / 2;
         for Series { name, points, .. } in &self.series {
             if !points.iter().any(|(x, y)| self.has_place((*x, y.value))) {
-                return Err(Error::Empty(name.clone()));
+                return Err(Error(Fault::Empty(name.clone())));
             }
             if has_names {
                 right = right.min(WIDTH as i32 - font::width(name, SMALL)? - 200);
@@ -197,7 +201,7 @@ impl Plot {
         let mut ends: Vec<(String, Vec<_>, _)> = Vec::new();
         for Series { name, symbol, points, breaks, .. } in self.series {
             if !points.iter().any(|(x, y)| panel.contains((*x, y.value))) {
-                return Err(Error::Empty(name));
+                return Err(Error(Fault::Empty(name)));
             }
             let place = ends.iter().position(|end| end.0 == name).unwrap_or(ends.len());
             let colour = COLOURS[place % COLOURS.len()];
@@ -297,7 +301,8 @@ mod tests {
         assert_eq!((near.label.as_str(), numbers.as_str()), ("*x* − 1 (s)", expected));
         assert_eq!(near.column_name(), "x (s)");
         for ends in [[-1.7e308, 1.7e308], [1.0, 1.0 + f64::EPSILON], [1e17, 1e17 + 64.0]] {
-            assert!(matches!(axis(false, &ends).0.check(), Err(Error::Axis { .. })), "{ends:?}");
+            let refused = axis(false, &ends).0.check();
+            assert!(matches!(refused, Err(Error(Fault::Axis { .. }))), "{ends:?}");
         }
         // Ranges of all sizes, some far from zero, against their numbers read back.
         let number = |text: &str| {
@@ -359,26 +364,26 @@ mod tests {
         let wrong = fails(Plot::new().line("*σ*", &[(0.0, 1.0), (5.0, f64::NAN)])).to_string();
         assert!(wrong.starts_with("row 2 of the series \"sigma\", (5, NaN), is not finite"));
         let same = fails(Plot::new().line("a", &points).line("a", &points));
-        assert!(matches!(same, Error::SameName(_)), "{same}");
+        assert!(matches!(same, Error(Fault::SameName(_))), "{same}");
         let missing = fails(Plot::new().line("a", &points).line("⌊k⌋", &points));
-        assert!(matches!(missing, Error::Glyph { character: '⌊', .. }));
+        assert!(matches!(missing, Error(Fault::Glyph { character: '⌊', .. })));
         let wide = fails(Plot::new().line("a", &[(0.0, -1.7e308), (1.0, 1.7e308)]));
-        assert!(matches!(wide, Error::Axis { .. }));
+        assert!(matches!(wide, Error(Fault::Axis { .. })));
         // Words that leave the sheet, and names that no place is left for.
         let long = fails(Plot::new().y(&"a long label ".repeat(9)).line("a", &points));
-        assert!(matches!(long, Error::OffSheet(_)), "{long}");
+        assert!(matches!(long, Error(Fault::OffSheet(_))), "{long}");
         let names = (0..30).map(|i| format!("curve {i}"));
         let full = fails(names.fold(Plot::new(), |plot, name| plot.line(&name, &points)));
-        assert!(matches!(full, Error::NoRoom(30)), "{full}");
+        assert!(matches!(full, Error(Fault::NoRoom(30))), "{full}");
         let negative = fails(Plot::new().estimates("a", &[(2.0, with_error(1.0, -0.5))]));
-        assert!(matches!(negative, Error::NegativeError { row: 1, .. }), "{negative}");
+        assert!(matches!(negative, Error(Fault::NegativeError { row: 1, .. })), "{negative}");
         // What would be an empty frame.
         let away = Plot::new().x_range(500.0, 600.0).line("a", &points);
-        assert!(matches!(fails(away), Error::Empty(_)));
+        assert!(matches!(fails(away), Error(Fault::Empty(_))));
         for plot in [Plot::new().line("a", &[]), Plot::new().log_y("b").line("a", &[(1.0, -2.0)])] {
-            assert!(matches!(fails(plot), Error::Empty(_)));
+            assert!(matches!(fails(plot), Error(Fault::Empty(_))));
         }
-        assert!(matches!(fails(Plot::new()), Error::NoSeries));
+        assert!(matches!(fails(Plot::new()), Error(Fault::NoSeries)));
         let plot = Plot::new().log_x("*k*").x_range(2.0, 60.0).y_range(0.0, 1.0).mark_size(80);
         let (_, panel) = plot.points("a", &[(5.0, 0.5), (70.0, 0.5)], Symbol::Ring).draw().unwrap();
         assert_eq!((panel.x.lo, panel.x.hi, panel.y.lo, panel.y.hi), (2.0, 60.0, 0.0, 1.0));

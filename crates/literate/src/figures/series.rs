@@ -7,7 +7,7 @@
 use super::axis::Axis;
 use super::drawing::{Drawing, Element};
 use super::elements::{CustomElement, Marker, line, markers};
-use super::error::{Drawn, Error};
+use super::error::{Drawn, Error, Fault};
 use super::markup::spelled;
 use super::panel::{Outside, Panel};
 use super::path::inside;
@@ -66,7 +66,7 @@ impl Panel {
         for (i, &(x, y)) in points.iter().enumerate() {
             let is_refused = self.outside == Outside::Refuse && !self.contains((x, y));
             if is_refused || !x.is_finite() || !y.is_finite() {
-                return Err(Error::Outside { series: spelled(name), row: 1 + i, x, y });
+                return Err(Error(Fault::Outside { series: spelled(name), row: 1 + i, x, y }));
             }
             // Where points outside are refused, the edge takes away at most a rounding error.
             let place = match self.outside {
@@ -194,7 +194,8 @@ impl Panel {
     pub fn estimates(&self, name: &str, estimates: &[(f64, Estimate)], marker: Marker) -> Drawn {
         for ((_, Estimate { error, .. }), row) in estimates.iter().zip(1..) {
             if !(0.0..).contains(error) {
-                return Err(Error::NegativeError { series: spelled(name), row, error: *error });
+                let (series, error) = (spelled(name), *error);
+                return Err(Error(Fault::NegativeError { series, row, error }));
             }
         }
         let shown = |(x, y): &&(f64, Estimate)| self.has_place((*x, y.value));
@@ -249,9 +250,9 @@ mod tests {
         assert_eq!(corners, [(1000, 1100), (2000, 100)]);
         let beyond = [(0.5, 0.5), (0.6, 1.1)];
         let drawn = panel.curve("curve", &beyond, LINE);
-        assert!(matches!(drawn, Err(Error::Outside { y: 1.1, .. })));
+        assert!(matches!(drawn, Err(Error(Fault::Outside { y: 1.1, .. }))));
         let marks = panel.markers("marks", &beyond, (Symbol::Disc, 30, LINE));
-        assert!(matches!(marks, Err(Error::Outside { .. })));
+        assert!(matches!(marks, Err(Error(Fault::Outside { .. }))));
         assert!(panel.columns("columns", &[1.1], LINE).is_err());
         // A wall that is touched within rounding is inside.
         panel.curve("wall", &[(0.0, -1e-17), (1.0, 1.0 + 1e-15)], LINE).unwrap();
@@ -263,7 +264,7 @@ mod tests {
         let panel = panel.outside(Outside::Cut);
         panel.curve("curve", &beyond, LINE).unwrap();
         let drawn = panel.bars("bars", &[(0.5, 0.1, 0.2), (0.5, 0.1, f64::NAN)], 0, LINE);
-        assert!(matches!(drawn, Err(Error::Outside { row: 2, .. })));
+        assert!(matches!(drawn, Err(Error(Fault::Outside { row: 2, .. }))));
         assert!(panel.curve("nan", &[(0.1, f64::NAN)], LINE).is_err());
     }
 
@@ -275,7 +276,7 @@ mod tests {
         assert_eq!(panel.area.map_coordinate(&(0.5, 0.1)), (1500, 900));
         let points = [(0.1, 0.5), (0.2, 0.0), (0.3, 1e-3), (0.4, -1.0)];
         let refused = panel.curve("refused", &points, LINE);
-        assert!(matches!(refused, Err(Error::Outside { x: 0.2, y: 0.0, .. })));
+        assert!(matches!(refused, Err(Error(Fault::Outside { x: 0.2, y: 0.0, .. }))));
         let cut = panel.outside(Outside::Cut);
         cut.curve("cut", &points, LINE).unwrap();
         let disc = (Symbol::Disc, 30, LINE);

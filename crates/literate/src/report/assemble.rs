@@ -15,7 +15,7 @@ use super::ledger::{EquationEntry, Ledger};
 use super::lint::Declared;
 use super::mark;
 use super::parse::Parsed;
-use super::values::Registry;
+use super::values::ValueRegistry;
 use super::{coded, html, latex, ledger, markdown, parse, search};
 use crate::claims::Check;
 use crate::figures::Figure;
@@ -77,7 +77,7 @@ pub fn assemble(input: &Input<'_>) -> Result<Files, Error> {
 }
 
 /// Fills the prose of each document; returns also the values, with the scorecard among them.
-fn fill(input: &Input<'_>) -> Result<(Registry, Filler, Vec<Filled>), Error> {
+fn fill(input: &Input<'_>) -> Result<(ValueRegistry, Filler, Vec<Filled>), Error> {
     let mut values = input.values.clone();
     let (printed, relations): (Vec<Check>, Vec<Check>) =
         input.claims.iter().cloned().partition(|claim| claim.kind.is_printed());
@@ -115,7 +115,7 @@ fn all_in_order(errors: Vec<Error>) -> Result<(), Error> {
 fn parts<'a>(
     input: &Input<'a>,
     filled: &'a [Filled],
-    values: &'a Registry,
+    values: &'a ValueRegistry,
     declared: &'a Declared,
 ) -> Result<(Vec<Part<'a>>, Labels), Error> {
     let path = input.templates.place("references.bib");

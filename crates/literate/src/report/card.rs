@@ -4,7 +4,7 @@ use super::claims::with_formulas;
 use super::document::{Inline, to_inlines, words_and_maths};
 use super::edition::Edition;
 use super::ledger::Ledger;
-use super::values::{Digits, Number, Provenance, Registry, Value};
+use super::values::{Digits, Number, Provenance, Value, ValueRegistry};
 use crate::experiments::{AnyExperiment, Profile};
 use crate::print::{Style, print};
 use crate::project::Project;
@@ -69,7 +69,7 @@ impl Card {
 }
 
 pub struct Cards<'a> {
-    pub values: &'a Registry,
+    pub values: &'a ValueRegistry,
     pub ledger: &'a Ledger,
     pub edition: &'a Edition,
     pub project: &'a Project,

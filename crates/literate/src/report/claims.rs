@@ -145,9 +145,9 @@ mod tests {
         let sentence = "At p_crit k* of φ_N(k) is fig_3_b, 2*3, a_ and σ_x.";
         let set = r"At $p_{\mathrm{crit}}$ $k^*$ of $\phi_N$($k$) is fig_3_b, 2*3, a_ and $σ_x$.";
         assert_eq!(with_formulas(sentence), set);
-        let sentence = crate::text!("k* at {}.", with_error(0.11652, 0.0004));
+        let sentence = crate::claims::text!("k* at {}.", with_error(0.11652, 0.0004));
         assert_eq!(to_markdown(&sentence), "$k^*$ at 0.1165(4).");
-        let sentence = crate::text!("{} and {}", -3.25, 1.2e-5);
+        let sentence = crate::claims::text!("{} and {}", -3.25, 1.2e-5);
         assert_eq!(to_markdown(&sentence), r"−3.25 and $1.2\times10^{-5}$");
     }
 

@@ -3,21 +3,28 @@
 use super::ledger::EquationEntry;
 use crate::prose::Templates;
 
+/// What an edition says of itself.
 #[derive(Clone, Debug)]
 pub struct Edition {
+    /// Title of the paper.
     pub title: &'static str,
+    /// Names and affiliations, which may be empty.
     pub authors: Vec<(&'static str, &'static str)>,
     /// Address of the repository, at the foot of each page, and DOI; may be empty.
     pub address: &'static str,
+    /// DOI; may be empty.
     pub doi: &'static str,
     /// Day of this version, YYYY-MM-DD; may be empty.
     pub date: &'static str,
+    /// Licence of text and figures; may be empty.
     pub license: &'static str,
     /// Names and addresses of what the foot of each page leads to, seen from the report.
     pub links: Vec<(&'static str, &'static str)>,
     /// The figure that links to a page show; a README has its form for dark pages too.
     pub cover: Option<&'static str>,
+    /// The documents, in the order in which readers are offered them.
     pub documents: Vec<Document>,
+    /// The numbered equations that the prose must show.
     pub equations: Vec<EquationEntry>,
     /// Returns the path of the item that judges the statement with this id, for its card.
     pub judged_by: fn(&str) -> String,
@@ -25,7 +32,7 @@ pub struct Edition {
 
 impl Edition {
     /// Makes an edition with this title and one document, [`Document::REPORT`].
-    pub fn new(title: &'static str) -> Self {
+    pub(crate) fn new(title: &'static str) -> Self {
         Edition {
             title,
             authors: Vec::new(),
@@ -64,14 +71,18 @@ impl Edition {
     }
 }
 
+/// A document: its prose, and the files that it is written to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Document {
     /// Its prose: `PROSE.md`, or the files of the folder `PROSE` in the order of their names.
     pub prose: &'static str,
+    /// What links to it say.
     pub name: &'static str,
     /// What the numbers of its sections, tables and listings begin with; nothing in the first.
     pub letter: &'static str,
+    /// Name of the file in Markdown.
     pub markdown: &'static str,
+    /// Name of the file in HTML.
     pub page: &'static str,
     /// Its file for LaTeX, without its ending `.tex`, if it is printed.
     pub print: Option<&'static str>,
@@ -80,6 +91,7 @@ pub struct Document {
 }
 
 impl Document {
+    /// The only document of a small paper, `report`.
     pub const REPORT: Document = Document {
         prose: "report",
         name: "Report",

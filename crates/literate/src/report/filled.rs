@@ -3,7 +3,7 @@
 use super::error::{Error, Thing};
 use super::mark::{self, Piece, framed, pieces};
 use super::typed::{self, Names};
-use super::values::Registry;
+use super::values::ValueRegistry;
 use crate::input::Place;
 
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -76,12 +76,12 @@ impl Filled {
 #[derive(Clone, Debug)]
 pub struct Places<'a> {
     filled: &'a Filled,
-    values: &'a Registry,
+    values: &'a ValueRegistry,
     offsets: Vec<(Thing, usize)>,
 }
 
 impl<'a> Places<'a> {
-    pub fn new(filled: &'a Filled, values: &'a Registry) -> Self {
+    pub fn new(filled: &'a Filled, values: &'a ValueRegistry) -> Self {
         Places { filled, values, offsets: Vec::new() }
     }
 

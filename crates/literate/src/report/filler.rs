@@ -6,7 +6,7 @@ use super::error::Error;
 use super::filled::Filled;
 use super::lint::Declared;
 use super::mark::{self, Piece, pieces, with_places};
-use super::values::{Number, Registry, Value};
+use super::values::{Number, Value, ValueRegistry};
 use crate::input::{Place, in_plain_words};
 use crate::prose::Templates;
 use crate::table::{Table, nearest};
@@ -28,7 +28,7 @@ impl Filler {
     /// Sets Tera up with all `.md`, `.tex` and `.html` files, and with values: `v.name` and
     /// `group.name` are marks, `raw.name` and `raw.group.name` plain numbers. Cells of tables are
     /// `table["row"].column`, their keys `keys.table.key` and `keys.table.rows`.
-    pub fn new(templates: &Templates, values: &Registry) -> Result<Self, Error> {
+    pub fn new(templates: &Templates, values: &ValueRegistry) -> Result<Self, Error> {
         let declared = Declared::read(templates.text("literals.toml")?)
             .map_err(|error| Error::Template(templates.place(&error.to_string())))?;
         // Tables for figures alone are long, and no template needs them.
@@ -287,7 +287,7 @@ fn plain_number(value: &Value) -> Json {
     }
 }
 
-fn context_names(values: &Registry, tables: &[&Table]) -> Json {
+fn context_names(values: &ValueRegistry, tables: &[&Table]) -> Json {
     let mut names = Json::Null;
     let mut add = |path: &[&str], value: Option<&Value>| {
         let group: &[&str] = if path.len() == 1 { &["v"] } else { &[] };

@@ -1,7 +1,7 @@
 //! Holds all that a report is made of.
 
 use super::edition::Edition;
-use super::values::Registry;
+use super::values::ValueRegistry;
 use crate::claims::Check;
 use crate::experiments::AnyExperiment;
 use crate::figures::Figure;
@@ -14,7 +14,7 @@ pub const LAB: &str = "lab.js";
 #[derive(Clone, Copy)]
 pub struct Input<'a> {
     pub templates: &'a Templates,
-    pub values: &'a Registry,
+    pub values: &'a ValueRegistry,
     /// Rows of tables that are not values or claims, by the name that templates use.
     pub rows: &'a BTreeMap<&'static str, serde_json::Value>,
     /// Statements and relations.

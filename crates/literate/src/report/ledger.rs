@@ -7,34 +7,39 @@ use serde::{Deserialize, Serialize};
 
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Ledger {
-    pub claims: Vec<Check>,
-    pub figures: Vec<FigureEntry>,
-    pub equations: Vec<EquationEntry>,
+    pub(crate) claims: Vec<Check>,
+    pub(crate) figures: Vec<FigureEntry>,
+    pub(crate) equations: Vec<EquationEntry>,
 }
 
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct FigureEntry {
-    pub id: String,
+    pub(crate) id: String,
     /// What the prose refers to it by, as `fig:3`.
-    pub label: String,
-    pub number: String,
-    pub title: String,
-    pub description: String,
-    pub picture: String,
-    pub data: Vec<String>,
-    pub source: String,
-    pub experiments: Vec<String>,
+    pub(crate) label: String,
+    pub(crate) number: String,
+    pub(crate) title: String,
+    pub(crate) description: String,
+    pub(crate) picture: String,
+    pub(crate) data: Vec<String>,
+    pub(crate) source: String,
+    pub(crate) experiments: Vec<String>,
 }
 
+/// A numbered equation, and where the source has it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EquationEntry {
+    /// Its number.
     pub number: u32,
+    /// The number of its section.
     pub section: u32,
     /// All digits of its formula, which the prose must have too.
     #[serde(skip)]
     pub digits: Option<&'static str>,
+    /// What it gives, in words.
     pub what: String,
+    /// Path of the item that computes it.
     pub home: String,
     /// The equation that the home leads to, where coding this one would be pointless.
     #[serde(default, skip_serializing_if = "Option::is_none")]

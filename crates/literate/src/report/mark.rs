@@ -36,6 +36,7 @@ pub enum Piece<'a> {
     Value { id: String, filters: &'a str },
 }
 
+/// Returns the mark that stands for the value with an id, with filters of Tera behind it.
 pub fn framed(id: &str, filters: &str) -> String {
     let id: String = id.chars().map(moved).collect();
     format!("{OPEN}{id}{NEXT}{filters}{CLOSE}")

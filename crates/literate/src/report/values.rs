@@ -5,20 +5,20 @@ use crate::experiments::Profile;
 use crate::input::is_control;
 use crate::source::Sources;
 use crate::table::{Table, Tables};
-pub use crate::value::{Digits, Number, Origin, Provenance, Value, origin};
+pub(crate) use crate::value::{Digits, Number, Provenance, Value, origin};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[serde(transparent)]
-pub struct Registry {
+pub struct ValueRegistry {
     values: BTreeMap<String, Value>,
     #[serde(skip)]
     tables: Tables,
 }
 
-impl Registry {
-    pub fn add(&mut self, value: Value) -> Result<(), Error> {
+impl ValueRegistry {
+    pub(crate) fn add(&mut self, value: Value) -> Result<(), Error> {
         check_showable(&value)?;
         if let Some(before) = self.values.get(&value.id) {
             return Err(Error::twice(&value.id, &before.source, &value.source));
@@ -27,7 +27,7 @@ impl Registry {
         Ok(())
     }
 
-    pub fn add_tables(&mut self, tables: &Tables) -> Result<(), Error> {
+    pub(crate) fn add_tables(&mut self, tables: &Tables) -> Result<(), Error> {
         for table in tables.values() {
             if let Some(value) = self.values.get(table.name()) {
                 return Err(Error::twice(&value.id, &value.source, &table.place()));
@@ -38,13 +38,13 @@ impl Registry {
         Ok(())
     }
 
-    pub fn tables(&self) -> impl Iterator<Item = &Table> {
+    pub(crate) fn tables(&self) -> impl Iterator<Item = &Table> {
         self.tables.values().map(AsRef::as_ref)
     }
 
     /// Lists the cells with these addresses among the values; all other cells stand in the data
     /// files alone.
-    pub fn keep_cells<'a>(&mut self, named: impl IntoIterator<Item = &'a str>) {
+    pub(crate) fn keep_cells<'a>(&mut self, named: impl IntoIterator<Item = &'a str>) {
         for address in named {
             if let Some(cell) = self.cell(address).cloned() {
                 self.values.insert(address.to_string(), cell);
@@ -53,7 +53,7 @@ impl Registry {
     }
 
     /// Shortens the paths of items to what documents show.
-    pub fn shorten(&mut self, sources: &Sources) {
+    pub(crate) fn shorten(&mut self, sources: &Sources) {
         for value in self.values.values_mut() {
             value.source = sources.shorten(&value.source).to_string();
         }
@@ -63,22 +63,22 @@ impl Registry {
         self.tables.get(crate::table::table_name(address)?)?.cell(address)
     }
 
-    pub fn extend(&mut self, values: impl IntoIterator<Item = Value>) -> Result<(), Error> {
+    pub(crate) fn extend(&mut self, values: impl IntoIterator<Item = Value>) -> Result<(), Error> {
         values.into_iter().try_for_each(|value| self.add(value))
     }
 
-    pub fn get(&self, id: &str) -> Option<&Value> {
+    pub(crate) fn get(&self, id: &str) -> Option<&Value> {
         self.values.get(id).or_else(|| self.cell(id))
     }
 
-    pub fn profile(&self) -> Option<Profile> {
+    pub(crate) fn profile(&self) -> Option<Profile> {
         match &self.get("profile")?.number {
             Number::Text(name) => clap::ValueEnum::from_str(name, false).ok(),
             _ => None,
         }
     }
 
-    pub fn iter(&self) -> impl Iterator<Item = &Value> {
+    pub(crate) fn iter(&self) -> impl Iterator<Item = &Value> {
         self.values.values()
     }
 }
@@ -99,10 +99,10 @@ fn check_showable(value: &Value) -> Result<(), Error> {
     }
 }
 
-pub fn read(json: &str) -> Result<Registry, Error> {
+pub fn read(json: &str) -> Result<ValueRegistry, Error> {
     let values = serde_json::from_str(json)
         .map_err(|error| Error::Template(format!("values.json: {error}")))?;
-    Ok(Registry { values, ..Registry::default() })
+    Ok(ValueRegistry { values, ..ValueRegistry::default() })
 }
 
 #[cfg(test)]
@@ -111,7 +111,7 @@ mod tests {
 
     #[test]
     fn an_id_has_one_owner_and_a_number_is_finite() {
-        let mut registry = Registry::default();
+        let mut registry = ValueRegistry::default();
         registry.add(Value::integer("edges", 16)).unwrap();
         for wrong in [Value::integer("edges", 17), Value::real("x", f64::NAN, 2)] {
             registry.add(wrong).unwrap_err();

@@ -123,6 +123,7 @@ impl<'a, R> Building<'a, R> {
         self.chosen(name, unit, "", get)
     }
 
+    /// Adds a key of words.
     pub fn text_key<F: Fn(&R) -> String>(mut self, name: &'static str, get: F) -> Self {
         self.count_key(name);
         self.words(name, "", get)
@@ -163,6 +164,7 @@ impl<'a, R> Building<'a, R> {
         })
     }
 
+    /// Adds a column of words.
     pub fn words<W: Into<Number>, F: Fn(&R) -> W>(
         self,
         name: &'static str,
@@ -200,10 +202,8 @@ impl<'a, R> Building<'a, R> {
         })
     }
 
-    /// Names the rows by their keys, and notes what is wrong: [`Results::tables`] refuses the
-    /// table for two columns or rows of one name, and for numbers that are not finite.
-    ///
-    /// [`Results::tables`]: crate::experiments::Results::tables
+    /// Names the rows by their keys. Two columns or rows of one name, and numbers that are not
+    /// finite, are errors when the table is first asked for.
     pub fn done(mut self) -> Table {
         let columns = self.table.columns.clone();
         for (index, column) in columns.iter().enumerate() {

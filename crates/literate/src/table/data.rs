@@ -7,7 +7,7 @@ use std::borrow::Cow;
 impl DataFile {
     /// Makes the file of a table: names of columns with units, and cells with every bit of each
     /// number, and a further column for each standard error.
-    pub fn from_table(table: &Table) -> Self {
+    pub(crate) fn from_table(table: &Table) -> Self {
         let (mut header, mut rows) = (Vec::new(), vec![Vec::new(); table.rows.len()]);
         for (index, Column { name, unit }) in table.columns.iter().enumerate() {
             let mut cells = table.rows.iter().map(|(_, cells)| &cells[index]);
@@ -25,7 +25,7 @@ impl DataFile {
         DataFile { name: Self::file_name(table.name()), header, rows }
     }
 
-    pub fn file_name(table: &str) -> String {
+    pub(crate) fn file_name(table: &str) -> String {
         format!("{}.csv", table.replace('.', "-"))
     }
 
@@ -53,12 +53,14 @@ fn to_cell(number: &Number) -> String {
     }
 }
 
+/// A data file, as text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DataFile {
     /// File name, such as `fig09a.csv`.
     pub name: String,
     /// Column names with units, such as `sigma (d omega^2)`; 1 stands for a pure number.
     pub header: Vec<String>,
+    /// The cells of each row.
     pub rows: Vec<Vec<String>>,
 }
 

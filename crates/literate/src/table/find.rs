@@ -1,6 +1,6 @@
 //! Finds tables and cells by their names.
 
-use super::missing::{Missing, NO_NUMBER, no_such};
+use super::missing::{Missing, no_such};
 use super::rows::Table;
 use crate::value::Value;
 use std::collections::BTreeMap;
@@ -17,14 +17,6 @@ pub fn find_table<'a>(tables: &'a Tables, name: &str) -> Result<&'a Table, Missi
             missing.remedy = "add its experiment to `needs`";
             Err(missing)
         }
-    }
-}
-
-#[track_caller]
-pub fn find_number(tables: &Tables, address: &str) -> Result<f64, Missing> {
-    match find_cell(tables, address)?.as_f64() {
-        Some(number) => Ok(number),
-        None => Err(Missing::new(address, NO_NUMBER)),
     }
 }
 

@@ -16,13 +16,13 @@ pub struct Missing {
 
 impl Missing {
     #[track_caller]
-    pub(super) fn new(address: impl Into<String>, what: impl Into<String>) -> Missing {
+    pub(crate) fn new(address: impl Into<String>, what: impl Into<String>) -> Missing {
         let (remedy, place) = ("run a fuller profile", source_line(Location::caller()));
         Missing { address: address.into(), what: what.into(), remedy, place }
     }
 }
 
-pub(super) const NO_NUMBER: &str = "this cell has no number";
+pub(crate) const NO_NUMBER: &str = "this cell has no number";
 
 pub(crate) fn no_such<'a>(kind: &str, name: &str, names: impl Iterator<Item = &'a str>) -> String {
     let nearest = nearest(name, names);

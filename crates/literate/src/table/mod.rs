@@ -16,7 +16,7 @@ mod rows;
 
 pub use building::Building;
 pub use data::{DataFile, shortest};
-pub use find::{Tables, find_cell, find_number, find_table, table_name};
-pub(crate) use missing::no_such;
-pub use missing::{Missing, nearest};
+pub(crate) use find::{Tables, find_cell, find_table, table_name};
+pub use missing::Missing;
+pub(crate) use missing::{NO_NUMBER, nearest, no_such};
 pub use rows::{Keys, Table};

@@ -8,6 +8,7 @@ use impact_numerics::statistics::Estimate;
 use std::collections::BTreeMap;
 use std::panic::Location;
 
+/// Rows that keys name, and columns.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
     pub(super) name: &'static str,
@@ -28,6 +29,7 @@ pub(super) struct Column {
     pub(super) unit: &'static str,
 }
 
+/// Names of keys and their values, which choose rows.
 pub type Keys<'a> = &'a [(&'a str, f64)];
 
 impl Table {
@@ -37,7 +39,7 @@ impl Table {
     }
 
     /// Returns where the source makes it: `src/file.rs:12`.
-    pub fn place(&self) -> String {
+    pub(crate) fn place(&self) -> String {
         source_line(self.place)
     }
 
@@ -132,7 +134,7 @@ impl Table {
 
     /// Returns the values of a key as addresses write them, without repetitions, in the order of
     /// the rows.
-    pub fn key_values(&self, key: &str) -> Vec<String> {
+    pub(crate) fn key_values(&self, key: &str) -> Vec<String> {
         let index = self.keys().position(|name| name == key);
         let cells = self.rows.iter().filter_map(|(_, cells)| cells.get(index?));
         without_repeats(cells.map(|cell| key_to_text(&cell.number)))
@@ -178,18 +180,18 @@ impl Table {
         self
     }
 
-    pub fn keys(&self) -> impl Iterator<Item = &'static str> {
+    pub(crate) fn keys(&self) -> impl Iterator<Item = &'static str> {
         self.names().take(self.keys)
     }
 
-    pub fn rows(&self) -> impl Iterator<Item = &str> {
+    pub(crate) fn rows(&self) -> impl Iterator<Item = &str> {
         self.rows.iter().map(|(name, _)| name.as_str())
     }
 
     /// Returns the rows, as cells by the names of columns, by every name that a template can give
     /// to a row: `key=value` for each key, where `first` and `last` stand for the first and the
     /// last value. A row without keys has the empty name.
-    pub fn rows_by_name(&self) -> BTreeMap<String, BTreeMap<&'static str, &Value>> {
+    pub(crate) fn rows_by_name(&self) -> BTreeMap<String, BTreeMap<&'static str, &Value>> {
         let mut rows = BTreeMap::new();
         let keys: Vec<_> = self.keys().map(|key| (key, self.key_values(key))).collect();
         for (_, cells) in &self.rows {

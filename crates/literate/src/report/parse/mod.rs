@@ -13,7 +13,7 @@ use super::filled::{Filled, Places};
 use super::labels::check_kind;
 use super::latex;
 use super::lint::Declared;
-use super::values::Registry;
+use super::values::ValueRegistry;
 use crate::source::Sources;
 use pulldown_cmark::{
     Alignment, BrokenLink, CodeBlockKind, CowStr, Event, Options, Parser, Tag, TagEnd,
@@ -31,7 +31,7 @@ pub struct Parsed<'a> {
 /// Parses filled Markdown, in which `values` replace marks and `declared` phrases may have numbers.
 pub fn parse<'a>(
     filled: &'a Filled,
-    values: &'a Registry,
+    values: &'a ValueRegistry,
     declared: &'a Declared,
     sources: &'a Sources,
 ) -> Parsed<'a> {
@@ -75,7 +75,7 @@ fn fault(problem: impl Into<String>) -> Error {
 struct Reader<'a> {
     events: std::iter::Peekable<std::vec::IntoIter<(Event<'a>, Range<usize>)>>,
     filled: &'a Filled,
-    values: &'a Registry,
+    values: &'a ValueRegistry,
     declared: &'a Declared,
     sources: &'a Sources,
     /// Where an id begins and ends that is no text: behind a caption, a picture or an equation.

@@ -1,9 +1,15 @@
 //! Breaks prose: each fault is named with its place.
 
-use super::{Given, PROSE, Table, assembled, file, given, unmarked};
+use super::damaged::survives;
+use super::*;
 
 /// Broken prose, line and column of the error, and words of its message; or a heading.
 const BROKEN: &str = include_str!("broken.txt");
+
+/// Prose with what can be nested and referred to.
+const MORE: &str = "\n\n## Sec {#sec:a}\n\nMasses ([@rice1945]; see [@eq:18] and [@sec:a]) move *fast*, [here](data):\n\n\
+    $$\np_{\\mathrm{crit}} = \\left(\\frac{1 + \\sqrt{N+1}}{«v.tiny | significant(digits=3)»}\\right)^2\n$$\n\n\
+    | Check | Ours |\n|:--|--:|\n<% for d in [\"a\", \"b\"] %>| «d» | «v.tiny | percent» |\n<% endfor %>\n";
 
 #[test]
 fn faults_in_prose_are_reported_with_their_places() {
@@ -59,4 +65,18 @@ fn good_prose_passes() {
     assert!(file(&lists, "report.md").contains("   3. c\n\n<!-- -->\n\n1. b\n"));
     let third = "\\begin{enumerate}\n\\setcounter{\\csname @enumctr\\endcsname}{2}\n\\item c";
     assert!(file(&lists, "report.tex").contains(third));
+}
+
+#[test]
+fn no_reader_panics_or_hangs() {
+    let report = assembled(PROSE).unwrap();
+    survives("prose", &format!("{PROSE}{MORE}"), 200, assembled);
+    survives("references.bib", BIB, 100, |text| {
+        let library = bibliography::Library::read("", text).map_err(|error| error.to_string())?;
+        library.warnings().next().map_or(Ok(()), Err)
+    });
+    survives("values.json", &file(&report, "values.json"), 100, values::read);
+    survives("ledger.json", &file(&report, "ledger.json"), 100, ledger::read);
+    let sums = |text: &str| folder::read_sums(text).ok_or("");
+    survives("SHA256SUMS", &file(&report, "SHA256SUMS"), 1000, sums);
 }

@@ -1,6 +1,7 @@
 //! A report of one document that uses everything, and everything that can be wrong with it.
 
 mod broken;
+mod damaged;
 mod data;
 mod documents;
 
@@ -12,6 +13,7 @@ use crate::project::Project;
 use crate::prose::Templates;
 use crate::source::toy;
 use crate::table::{DataFile, Table, Tables};
+use crate::value::Value;
 use impact_numerics::estimates::with_error;
 use std::sync::Arc;
 
@@ -60,9 +62,10 @@ fn figure() -> Figure {
 }
 
 fn claim(id: &'static str) -> Check {
-    let result = crate::text!("{}", with_error(0.11652, 0.0004));
+    let result = crate::claims::text!("{}", with_error(0.11652, 0.0004));
     let check = Check::new(Kind::Statement, id, "A threshold | in [xx, {yy}^zz] @ exists", result);
-    let mut judged = check.judged(true).with_tolerance(crate::text!("{:1}", 0.005), "half a unit");
+    let mut judged =
+        check.judged(true).with_tolerance(crate::claims::text!("{:1}", 0.005), "half a unit");
     (judged.place, judged.expected) = ("Sec. 2".into(), "σ ≈ 0.12".into());
     judged
 }
@@ -78,7 +81,7 @@ struct Given {
 
 impl Given {
     fn made(self) -> Result<Files, Error> {
-        let mut values = Registry::default();
+        let mut values = ValueRegistry::default();
         values.add(Value::integer("half_height", with_error(0.11652, 0.0004)))?;
         values.add(Value::real("tiny", -8.87e-4, 3))?;
         values.add(Value::real("least", 1e-9, 1))?;
@@ -145,7 +148,7 @@ report.html => You run <em>them</em>.
 lab.js => end();"##;
     has(&with, parts);
     assert!(!file(&without, "report.html").contains("You run"));
-    assert!(!without.contains_key(LAB));
+    assert!(!without.contains_key(input::LAB));
     for report in [&mut with, &mut without] {
         report.retain(|path, _| !folder::is_generated(path));
     }
