@@ -1,8 +1,6 @@
 //! Judges Section 5, the counts of orbits.
 
 use super::shared::*;
-use crate::experiments::SEGMENTS;
-use crate::params::VERTICES;
 use std::collections::BTreeSet;
 
 pub fn rules() -> Vec<Rule> {

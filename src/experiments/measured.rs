@@ -2,8 +2,6 @@
 //! run to run, so nothing of the reproduction depends on them.
 
 use crate::experiments::prelude::*;
-use crate::params::{MethodName, Runs, Setting};
-use literate::input::one_line;
 use serde::de::DeserializeOwned;
 
 pub const MEASURED: Experiment<(), Measured> = Experiment {

@@ -1,9 +1,7 @@
 //! Replays the motions of Figs. 5(b) and 6(b), and a periodic orbit for each of their circuits.
 
 use crate::experiments::prelude::*;
-use crate::params::Start;
 use impact_circuits::graph::Graph;
-use literate::input::one_line;
 use std::collections::{BTreeMap, BTreeSet};
 
 pub const SEGMENTS: Experiment<(), Segments> = Experiment {

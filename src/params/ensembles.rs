@@ -7,7 +7,7 @@ use impact_chain::{Boundary, Chain, Protocol, Start};
 use literate::experiments::Profile;
 
 /// Lists the windows (T, T + W] of all transients T, each with all widths W.
-fn windows(transients: &[f64], widths: &[f64]) -> Vec<Protocol> {
+pub fn windows(transients: &[f64], widths: &[f64]) -> Vec<Protocol> {
     let after = |&transient| widths.iter().map(move |&window| Protocol { transient, window });
     transients.iter().flat_map(after).collect()
 }

@@ -1,10 +1,8 @@
 //! The error of a method in the mean number of gaps that impact, on the same chains.
 
 use crate::experiments::prelude::*;
-use crate::params::{BiasParams, Means, MethodName, Setting};
 use impact_chain::methods::{CountedSteps, Task, VerletAbreast};
 use impact_chain::{Abreast, HitGaps};
-use rayon::prelude::*;
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Biases {

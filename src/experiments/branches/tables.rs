@@ -1,8 +1,7 @@
 //! Makes the tables of half heights and shares on both branches.
 
 use super::fits::{LAWS, Law};
-use super::pairs::{Branch, FROM_ABOVE, FROM_REST, Pair, distance};
-use super::run::Chains;
+use super::pairs::{Branch, Chains, FROM_ABOVE, FROM_REST, Pair, distance};
 use crate::experiments::prelude::*;
 
 pub fn make(chains: &Vec<Chains>) -> Vec<Table> {

@@ -2,7 +2,7 @@
 
 use super::basics::{expect_known, largest, one_row, sum};
 use crate::experiments::prelude::*;
-use crate::params::{GRAPH_MASSES, VERTICES};
+use crate::params::GRAPH_MASSES;
 use impact_circuits::distribution::SampleSpace;
 use impact_circuits::graph::Graph;
 use impact_circuits::{commuting, counting, jump};

@@ -5,13 +5,12 @@ use super::census::{census, counted};
 use super::comparison::interpolate;
 use super::law::{law, means, simple};
 use crate::experiments::prelude::*;
-use crate::params::{HIGHER_P, REMARK_P, VERTICES};
+use crate::params::{HIGHER_P, REMARK_P};
 use SampleSpace::{FiveClasses, FiveClassesPrinted, Simple};
 use impact_circuits::distribution::{Law, SampleSpace};
 use impact_circuits::higher_order::{CLASSES, SHARED, doubled_as_printed, multiplicity};
 use impact_circuits::jump;
 use impact_numerics::double_double::DoubleDouble;
-use rayon::prelude::*;
 
 /// Returns P(X = k) of five classes, k = 1..=N.
 pub fn five(p: f64) -> Vec<f64> {

@@ -3,7 +3,6 @@
 use super::basics::{expect_known, one_row};
 use super::law::{k_star, law};
 use crate::experiments::prelude::*;
-use crate::params::VERTICES;
 use impact_circuits::distribution::Law;
 use impact_circuits::distribution::SampleSpace::Simple;
 use impact_circuits::jump;

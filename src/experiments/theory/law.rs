@@ -2,11 +2,10 @@
 
 use super::basics::{expect_known, one_row};
 use crate::experiments::prelude::*;
-use crate::params::{DISTRIBUTION_P, Grid, VERTICES};
+use crate::params::DISTRIBUTION_P;
 use impact_circuits::distribution::Law;
 use impact_circuits::distribution::SampleSpace::{self, Simple};
 use impact_circuits::jump;
-use impact_numerics::statistics::last_rise;
 
 pub(crate) fn law(space: SampleSpace, p: f64) -> Law {
     expect_known(Law::new(space, VERTICES, p))
