@@ -93,14 +93,12 @@ pub fn run(args: Args) -> Result<(), Failure> {
 
 /// Reads the state that `--save` wrote.
 fn saved(path: &Path) -> Result<State, Failure> {
-    let refusal = |error: String| {
-        let path = path.display();
-        let error = one_line(&error, 1000);
-        Failure::input(format!("--from: {path}: {error}; give a file that --save wrote"))
-    };
     let text = File::open(path).and_then(input::read_from);
-    serde_json::from_str(&text.map_err(|error| refusal(error.to_string()))?)
-        .map_err(|error| refusal(error.to_string()))
+    let state = text.and_then(|text| Ok(serde_json::from_str(&text)?));
+    state.map_err(|error| {
+        let (path, error) = (path.display(), one_line(&error.to_string(), 1000));
+        Failure::input(format!("--from: {path}: {error}; give a file that --save wrote"))
+    })
 }
 
 /// Starts the runs of all scenarios, and hands on where their parts come from.

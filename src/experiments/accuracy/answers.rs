@@ -84,10 +84,13 @@ impl Question {
         let engine = self.engine().filter(|engine| engine.is_enough == Some(true));
         let is_near =
             |answer: &Answer| engine.is_some_and(|engine| answer.seconds < TIE * engine.seconds);
-        let is_open = |answer: &Answer| answer.is_enough.is_none();
         match self.rival().zip(engine) {
             Some((rival, engine)) if TIE * rival.seconds <= engine.seconds => name_of(Some(rival)),
-            _ if self.answers.iter().any(|answer| is_open(answer) && is_near(answer)) => {
+            _ if self
+                .answers
+                .iter()
+                .any(|answer| answer.is_enough.is_none() && is_near(answer)) =>
+            {
                 "undecided".into()
             }
             Some((rival, _)) if is_near(rival) => "tie".into(),
