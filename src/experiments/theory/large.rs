@@ -1,9 +1,7 @@
 //! Computes the theory for many vertices, with p N held fixed as N grows: Fig. S6.
 
-use super::basics::expect_known;
-use crate::experiments::prelude::*;
-use impact_circuits::distribution::SampleSpace::Simple;
-use impact_circuits::jump::{self, Jump, jump_rule, limit_share, p_jump};
+use super::basics::*;
+use impact_circuits::jump::{jump_rule, limit_share};
 
 /// At most this many steps of k* between two values of p N are drawn one by one.
 const FEW: usize = 3;
