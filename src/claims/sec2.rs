@@ -105,8 +105,7 @@ fn jump(e: &Evidence<'_>) -> Judged {
     let [step, one, two, all] = e.numbers("sweep.against_theory", columns)?;
     let tenth = e.number("sweep.run.gaps")? / 10.0;
     let ratio = two / one;
-    let check = e.check(one >= tenth, numbers![step, one, tenth, ratio, all])?;
-    Ok(check.explained_if(ratio > 1.5))
+    Ok(e.check(one >= tenth, numbers![step, one, tenth, ratio, all])?.explained_if(ratio > 1.5))
 }
 
 /// Returns where the mode passes to all gaps in each window that begins late enough.
@@ -271,8 +270,7 @@ fn sticking(e: &Evidence<'_>) -> Judged {
         return Err(Undecided);
     }
     let (negligible, speed) = (NEGLIGIBLE, SLOW);
-    let agrees = phases / impacts <= negligible;
-    e.check(agrees, numbers![phases, impacts, negligible, slow, speed])
+    e.check(phases / impacts <= negligible, numbers![phases, impacts, negligible, slow, speed])
 }
 
 fn without_impact(e: &Evidence<'_>) -> Judged {

@@ -36,8 +36,7 @@ fn every_orbit(e: &Evidence<'_>) -> Judged {
     let apart = drift.max(apart);
     let is_exception = silent == 0.0 && instants < impacts && apart < 1e-9;
     let holds = silent > 0.0 && instants == impacts;
-    let check = e.check(holds, numbers![silent, impacts, instants, apart])?;
-    Ok(check.explained_if(is_exception))
+    Ok(e.check(holds, numbers![silent, impacts, instants, apart])?.explained_if(is_exception))
 }
 
 fn realised(e: &Evidence<'_>) -> Judged {

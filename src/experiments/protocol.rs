@@ -7,8 +7,7 @@ pub const PROTOCOL: Ensembles = ensembles("protocol", "protocol map", params::pr
 
 pub fn tables(ensembles: &Vec<Counted>) -> Vec<Table> {
     let Some(map) = find_ensemble(ensembles, PROTOCOL.name) else { return Vec::new() };
-    let halves = map.curves.iter().filter_map(|cell| cell.rise.half_height);
-    let mut halves: Vec<Estimate> = halves.collect();
+    let mut halves = Vec::from_iter(map.curves.iter().filter_map(|cell| cell.rise.half_height));
     halves.sort_by(|a, b| a.value.total_cmp(&b.value));
     let [from, to] = params::printed_interval();
     let printed = halves.iter().filter(|half| (from..to).contains(&half.value)).count();

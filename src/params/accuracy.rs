@@ -9,9 +9,9 @@ use impact_chain::{Chain, Protocol};
 use literate::experiments::Profile;
 use serde::{Deserialize, Serialize};
 
-/// The settings of each method in the experiments, coarse to fine: in the race against the true
-/// motion, the one of the quick profile, in the scenes where methods fail, and against the number of
-/// masses; none where it has no part.
+/// The settings of a method in each experiment, coarse to fine, none where it has no part: in the
+/// race against the true motion, the one of the quick profile there, in the scenes where methods
+/// fail, and against the number of masses.
 type MethodSettings = (MethodName, &'static [f64], f64, &'static [f64], &'static [f64]);
 
 /// Settings that several methods have.
