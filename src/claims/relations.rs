@@ -4,13 +4,7 @@
 
 use super::shared::*;
 use crate::experiments::accuracy::case::Outcome;
-use crate::experiments::rise::{Curve, RisePoint};
-use crate::experiments::{
-    LENGTHS, NUCLEATION, PROTOCOL, RACE, SCALE, SECOND_SEED, TRIALS, lengths, sweep,
-};
-use crate::params::MethodName;
-use impact_numerics::estimates::difference;
-use impact_numerics::statistics::Estimate;
+use crate::experiments::{NUCLEATION, RACE, SCALE, SECOND_SEED, TRIALS, lengths};
 use literate::claims::Basis::Statistics;
 
 /// Makes the rules of functions; the name of a function is the id.

@@ -1,14 +1,9 @@
 //! Judges Section 2, the simulation.
 
 use super::shared::*;
-use crate::experiments::rise::{Curve, Rise, RisePoint};
-use crate::experiments::sweep::{self, mode_half};
-use crate::experiments::theory::comparison::LARGE_SIGMA;
-use crate::experiments::{LENGTHS, MODE_JUMP, TWO_MASSES};
-use crate::params::{Chain, NEAR_SIMULTANEOUS, Protocol, SLOW};
+use crate::experiments::TWO_MASSES;
+use crate::params::{NEAR_SIMULTANEOUS, SLOW};
 use impact_chain::mode_jump::Passing;
-use impact_numerics::estimates::with_error;
-use impact_numerics::statistics::{Estimate, wilson};
 
 pub fn rules() -> Vec<Rule> {
     let own = Chain::default();
@@ -25,8 +20,12 @@ pub fn rules() -> Vec<Rule> {
         Rule::new("sec2_jump", jump).on(OurMeasure),
         Rule::new("sec2_mode_jump", mode_jump).on(OurMeasure),
         Rule::new("sec2_repeated", repeated).on(OurMeasure),
-        Rule::new("sec2_half_height", half_height).on(PrintedDigit).reads("σ ≈ 0.12"),
-        Rule::new("sec2_onset", onset).on(PrintedDigit).reads("σ ≈ 0.12"),
+        Rule::new("sec2_half_height", |e| by_protocol(e, "half_height", |rise| rise.half_height))
+            .on(PrintedDigit)
+            .reads("σ ≈ 0.12"),
+        Rule::new("sec2_onset", |e| by_protocol(e, "onset", |rise| rise.onset))
+            .on(PrintedDigit)
+            .reads("σ ≈ 0.12"),
         Rule::new("sec2_mode_rise", mode_rise).on(PrintedDigit).reads("σ ≈ 0.12"),
         Rule::new("sec2_three_way", three_way).on(OurMeasure).statistical(),
         Rule::new("sec2_sticking", sticking).on(OurMeasure),
@@ -106,8 +105,7 @@ fn jump(e: &Evidence<'_>) -> Judged {
     let [step, one, two, all] = e.numbers("sweep.against_theory", columns)?;
     let tenth = e.number("sweep.run.gaps")? / 10.0;
     let ratio = two / one;
-    let check = e.check(one >= tenth, numbers![step, one, tenth, ratio, all])?;
-    Ok(check.explained_if(ratio > 1.5))
+    Ok(e.check(one >= tenth, numbers![step, one, tenth, ratio, all])?.explained_if(ratio > 1.5))
 }
 
 /// Returns where the mode passes to all gaps in each window that begins late enough.
@@ -185,14 +183,6 @@ fn repeated(e: &Evidence<'_>) -> Judged {
     e.check(None, numbers![each, sigma, window, time])
 }
 
-fn half_height(e: &Evidence<'_>) -> Judged {
-    by_protocol(e, "half_height", |rise| rise.half_height)
-}
-
-fn onset(e: &Evidence<'_>) -> Judged {
-    by_protocol(e, "onset", |rise| rise.onset)
-}
-
 /// Judges a place of the rise by the windows of the map that begin late enough, and by those of
 /// chains with random free parts: the number of them in which it has the printed digits decides.
 fn by_protocol(e: &Evidence<'_>, name: &str, place: fn(&Rise) -> Option<Estimate>) -> Judged {
@@ -240,7 +230,7 @@ fn mode_rise(e: &Evidence<'_>) -> Judged {
     let gaps = e.number("sweep.run.gaps")? as usize;
     let beyond =
         late_curves(e, "protocol")?.into_iter().filter(|curve| curve.protocol.end() > longest);
-    let ranges: Vec<[f64; 2]> = beyond.filter_map(|curve| mode_half(curve, gaps)).collect();
+    let ranges: Vec<[f64; 2]> = beyond.filter_map(|curve| sweep::mode_half(curve, gaps)).collect();
     let apart = ranges.iter().filter(|[low, high]| to < *low || *high < from).count();
     let (ranges, released, half_unit) = (ranges.len(), RELEASED, e.statement.half_unit());
     let numbers = numbers![
@@ -280,8 +270,7 @@ fn sticking(e: &Evidence<'_>) -> Judged {
         return Err(Undecided);
     }
     let (negligible, speed) = (NEGLIGIBLE, SLOW);
-    let agrees = phases / impacts <= negligible;
-    e.check(agrees, numbers![phases, impacts, negligible, slow, speed])
+    e.check(phases / impacts <= negligible, numbers![phases, impacts, negligible, slow, speed])
 }
 
 fn without_impact(e: &Evidence<'_>) -> Judged {

@@ -2,7 +2,6 @@
 
 use super::sec2::small_force;
 use super::shared::*;
-use crate::experiments::SEGMENTS;
 use crate::params::GRAPH_MASSES;
 
 pub fn rules() -> Vec<Rule> {
@@ -37,8 +36,7 @@ fn every_orbit(e: &Evidence<'_>) -> Judged {
     let apart = drift.max(apart);
     let is_exception = silent == 0.0 && instants < impacts && apart < 1e-9;
     let holds = silent > 0.0 && instants == impacts;
-    let check = e.check(holds, numbers![silent, impacts, instants, apart])?;
-    Ok(check.explained_if(is_exception))
+    Ok(e.check(holds, numbers![silent, impacts, instants, apart])?.explained_if(is_exception))
 }
 
 fn realised(e: &Evidence<'_>) -> Judged {

@@ -1,8 +1,6 @@
 //! Judges Section 5, the counts of orbits.
 
 use super::shared::*;
-use crate::experiments::SEGMENTS;
-use crate::params::VERTICES;
 use std::collections::BTreeSet;
 
 pub fn rules() -> Vec<Rule> {
@@ -42,8 +40,7 @@ fn orbit(e: &Evidence<'_>, figure: usize) -> Judged {
 
 /// Returns how many bodies the impacts in some gaps of a chain involve, both walls being one body.
 fn bodies(gaps: &BTreeSet<usize>, masses: usize) -> usize {
-    let sides = gaps.iter().flat_map(|gap| [*gap, (gap + 1) % (masses + 1)]);
-    sides.collect::<BTreeSet<_>>().len()
+    gaps.iter().flat_map(|gap| [*gap, (gap + 1) % (masses + 1)]).collect::<BTreeSet<_>>().len()
 }
 
 /// The walls are one body, and their gaps neighbours, as on a ring.

@@ -2,7 +2,7 @@
 
 use super::sec2;
 use super::shared::*;
-use crate::params::{DISTRIBUTION_P, VERTICES};
+use crate::params::DISTRIBUTION_P;
 
 pub fn rules() -> Vec<Rule> {
     let fig8 = ["fig8_p_a", "fig8_p_b", "fig8_p_c", "fig8_p_d"];
@@ -28,14 +28,12 @@ fn rise(e: &Evidence<'_>) -> Judged {
     let [from, _, to, _] = DISTRIBUTION_P;
     let mean = |p: f64| e.number(&format!("theory.distribution[p={p}].mean"));
     let (few, many, n) = (mean(from)?, mean(to)?, VERTICES as f64);
-    let agrees = few < 0.1 * n && many > 0.75 * n;
-    e.check(agrees, numbers![few, many, from, to, increase = to - from])
+    e.check(few < 0.1 * n && many > 0.75 * n, numbers![few, many, from, to, increase = to - from])
 }
 
 fn step(e: &Evidence<'_>) -> Judged {
     let [largest, second] = e.numbers("theory.mean", ["largest_step", "other_steps"])?;
-    let agrees = largest * 10.0 >= VERTICES as f64 && second == 1.0;
-    e.check(agrees, numbers![largest, second])
+    e.check(largest * 10.0 >= VERTICES as f64 && second == 1.0, numbers![largest, second])
 }
 
 /// At p = 0 itself the weights are 0/0: a value there is a convention, which is neither right nor

@@ -1,7 +1,6 @@
 //! Judges Section 7, the discontinuity of the most likely number.
 
 use super::shared::*;
-use crate::params::VERTICES;
 use impact_circuits::jump;
 
 pub fn rules() -> Vec<Rule> {

@@ -2,18 +2,12 @@
 
 use super::sec2::NEGLIGIBLE;
 use super::shared::*;
-use crate::experiments::protocol::range;
-use crate::experiments::rise::Curve;
 use crate::experiments::starts::share_of_start;
-use crate::experiments::sweep;
-use crate::experiments::theory::comparison::{LARGE_SIGMA, interpolate, largest_distance};
+use crate::experiments::theory::comparison::largest_distance;
 use crate::experiments::theory::law::law;
-use crate::experiments::{LENGTHS, PROTOCOL, RESTITUTION, STARTS};
-use crate::params::VERTICES;
+use crate::experiments::{RESTITUTION, STARTS};
 use impact_chain::counts::Total;
-use impact_chain::rise::RisePoint;
 use impact_circuits::distribution::SampleSpace::Simple;
-use impact_numerics::statistics::{Estimate, wilson};
 
 pub fn rules() -> Vec<Rule> {
     vec![
@@ -206,11 +200,10 @@ fn mean_is_easier(e: &Evidence<'_>) -> Judged {
 fn restitution_omitted(e: &Evidence<'_>) -> Judged {
     let theory = e.number("theory.relation.sigma_half")?;
     let share = e.estimate("starts.against_theory.share")?;
-    let halves = e.results.table("restitution.curves")?.series(&[], "r", "half_height")?;
-    let [Some((lowest, _)), Some((highest, _))] = [halves.first(), halves.last()] else {
-        return Err(Undecided);
-    };
-    let moved = range(halves.iter().map(|(_, half)| Some(*half))).ok_or(Undecided)?;
+    let mut halves = e.results.table("restitution.curves")?.series(&[], "r", "half_height")?;
+    let [(lowest, _), .., (highest, _)] = halves[..] else { return Err(Undecided) };
+    halves.sort_by(|(_, a), (_, b)| a.value.total_cmp(&b.value));
+    let moved = difference(halves[halves.len() - 1].1, halves[0].1);
     let map = ensemble(e.results.of(&PROTOCOL)?, "protocol")?;
     let share_after = |curve: &Curve| {
         let rest = map.find_curve(curve.protocol)?;
@@ -220,7 +213,6 @@ fn restitution_omitted(e: &Evidence<'_>) -> Judged {
     let shares = ensemble(e.results.of(&LENGTHS)?, "random")?.curves.iter().filter_map(share_after);
     let [least, most] = extremes(shares).ok_or(Undecided)?;
     let by_all = e.estimate("starts.against_theory.share_of_all")?;
-    let (lowest, highest) = (*lowest, *highest);
     e.check(None, numbers![share, by_all, least, most, lowest, highest, moved])
 }
 

@@ -2,10 +2,8 @@
 
 use super::sec8::{VISIBLE, means_in_windows};
 use super::shared::*;
-use crate::experiments::SEGMENTS;
-use crate::experiments::theory::comparison::{self, LARGE_SIGMA};
 use crate::experiments::theory::higher::overtaken_in_order;
-use crate::params::{CONVERGENCE_P, HIGHER_P, REMARK_P, VERTICES};
+use crate::params::{CONVERGENCE_P, HIGHER_P, REMARK_P};
 
 pub fn rules() -> Vec<Rule> {
     let ([a, c, d], [first, last]) = (HIGHER_P, CONVERGENCE_P);
@@ -125,8 +123,7 @@ fn convergence(e: &Evidence<'_>) -> Judged {
     let later = later.map(|p| Ok((p, distance(p)?))).collect::<Result<Vec<_>, Error>>()?;
     let falls = later.windows(2).all(|w| w[1].1 < w[0].1);
     let (p_last, last) = later.last().copied().unwrap_or((f64::NAN, f64::NAN));
-    let agrees = falls && later.len() > 2 && b < 0.5 * a;
-    e.check(agrees, numbers![a, p_a, b, p_b, last, p_last])
+    e.check(falls && later.len() > 2 && b < 0.5 * a, numbers![a, p_a, b, p_b, last, p_last])
 }
 
 /// Compares the distributions after one is moved onto the other.
@@ -165,14 +162,12 @@ fn higher_jump(e: &Evidence<'_>) -> Judged {
     let simple = e.number("theory.jump.p_jump")?;
     let shift = higher / simple - 1.0;
     let change = 100.0 * shift;
-    let agrees = shift.abs() > 1e-9 && k_after >= 10.0;
-    e.check(agrees, numbers![higher, k_after, simple, change])
+    e.check(shift.abs() > 1e-9 && k_after >= 10.0, numbers![higher, k_after, simple, change])
 }
 
 fn higher_jump_different(e: &Evidence<'_>) -> Judged {
     let step = e.number("theory.higher.step_by_different")?;
-    let check = e.check(step >= 10.0, numbers![step])?;
-    Ok(check.explained_if(overtaken_in_order() && step == 1.0))
+    Ok(e.check(step >= 10.0, numbers![step])?.explained_if(overtaken_in_order() && step == 1.0))
 }
 
 /// “Modest” may be meant in number or along σ: where these disagree, our choice would decide.

@@ -1,8 +1,12 @@
 //! Makes the rules that several sections have in common, and gives the others what they share.
 
-use crate::experiments::PROTOCOL;
 use crate::experiments::ensembles::{Counted, find_ensemble};
-use crate::experiments::rise::Curve;
+pub use crate::experiments::rise::{Curve, Rise, RisePoint};
+pub(super) use crate::experiments::theory::comparison::{self, LARGE_SIGMA, interpolate};
+pub use crate::experiments::{LENGTHS, MODE_JUMP, PROTOCOL, SEGMENTS, sweep};
+pub use crate::params::{Chain, MethodName, Protocol, VERTICES};
+pub use impact_numerics::estimates::{difference, with_error};
+pub use impact_numerics::statistics::{Estimate, wilson};
 pub use literate::claims::Basis::{FiniteCases, OurMeasure, PrintedDigit, Rounding};
 pub use literate::claims::Error::{self, Undecided};
 pub use literate::claims::{Check, Evidence, Judged, Kind, Rule, Text};

@@ -7,7 +7,7 @@ use impact_chain::rise::{Column, Mean, RisePoint};
 use impact_chain::{Boundary, Chain, Counts, Graze, LATEST, Protocol, Start};
 use impact_paper::experiments::Progress;
 use impact_paper::experiments::ensembles::CUTTING;
-use impact_paper::params::{Ensemble, SEED};
+use impact_paper::params::{Ensemble, SEED, windows};
 use literate::Failure;
 use literate::cli::terminal::{Threads, print, warn};
 use literate::experiments::cutting::Cutting;
@@ -171,20 +171,15 @@ pub fn run(args: Args) -> Result<(), Failure> {
             "--forcing-frequency: it equals the natural frequency (resonance); choose another";
         return Err(Failure::input(message));
     }
-    let mut protocols = Vec::new();
-    for &transient in &*args.transient {
-        for &window in &*args.window {
-            protocols.push(Protocol { transient, window });
-        }
-    }
+    let protocols = windows(&args.transient, &args.window);
     let end = protocols.iter().map(Protocol::end).fold(0.0, f64::max);
     if end > LATEST {
         let message =
             format!("--transient, --window: they end after {LATEST:?}; give shorter ones");
         return Err(Failure::input(message));
     }
-    let number = usize::try_from(args.realisations.end - args.realisations.start);
-    let realisations = number.unwrap_or(usize::MAX);
+    let number = args.realisations.end - args.realisations.start;
+    let realisations = usize::try_from(number).unwrap_or(usize::MAX);
     let ensemble = Ensemble {
         name: "sweep".into(),
         chain,

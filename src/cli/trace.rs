@@ -5,7 +5,7 @@ mod one;
 
 use super::range::Times;
 pub use args::Args;
-use args::METHODS;
+use args::{METHODS, option};
 use impact_chain::State;
 use impact_paper::experiments::alive;
 use impact_paper::params::MethodName::*;
@@ -93,14 +93,12 @@ pub fn run(args: Args) -> Result<(), Failure> {
 
 /// Reads the state that `--save` wrote.
 fn saved(path: &Path) -> Result<State, Failure> {
-    let refusal = |error: String| {
-        let path = path.display();
-        let error = one_line(&error, 1000);
-        Failure::input(format!("--from: {path}: {error}; give a file that --save wrote"))
-    };
     let text = File::open(path).and_then(input::read_from);
-    serde_json::from_str(&text.map_err(|error| refusal(error.to_string()))?)
-        .map_err(|error| refusal(error.to_string()))
+    let state = text.and_then(|text| Ok(serde_json::from_str(&text)?));
+    state.map_err(|error| {
+        let (path, error) = (path.display(), one_line(&error.to_string(), 1000));
+        Failure::input(format!("--from: {path}: {error}; give a file that --save wrote"))
+    })
 }
 
 /// Starts the runs of all scenarios, and hands on where their parts come from.
@@ -152,15 +150,14 @@ fn read_all(job: &Arc<Job>, name: &str, queue: &SyncSender<Receiver<Part>>) -> i
 
 /// Returns the step or tolerance; refuses an option that the method does not have.
 fn setting(args: &Args) -> Result<f64, Failure> {
-    let (_, option, _) =
-        METHODS.into_iter().find(|(method, ..)| *method == args.method).unwrap_or(METHODS[0]);
-    let (takes, usual) = option.unwrap_or(("neither", 0.0));
-    for (option, value) in [("--step", args.step), ("--tolerance", args.tolerance)] {
-        if value.is_some() && option != takes {
+    let usual = METHODS.iter().find(|(method, ..)| *method == args.method).and_then(|row| row.1);
+    let takes = usual.map_or("neither", |_| option(args.method));
+    for (given, value) in [("--step", args.step), ("--tolerance", args.tolerance)] {
+        if value.is_some() && given != takes {
             let name = args.method.id();
-            let what = format!("{option}: the method {name} takes {takes}; leave it out");
+            let what = format!("{given}: the method {name} takes {takes}; leave it out");
             return Err(Failure::input(what));
         }
     }
-    Ok(args.step.or(args.tolerance).unwrap_or(usual))
+    Ok(args.step.or(args.tolerance).or(usual).unwrap_or_default())
 }

@@ -100,22 +100,14 @@ pub fn run_unit(
     Ok(unit.run_in_groups(group_size, stage, count)?.into_iter().flatten().collect())
 }
 
-/// An ensemble with its counts at each σ.
-pub struct EnsembleCounts {
-    pub ensemble: Ensemble,
-    pub counts: Vec<Counts>,
-}
-
-/// Joins the counts of units of work, and lists those of each ensemble.
+/// Joins the counts of units of work, and lists those of each ensemble at each σ.
 pub fn join_counts(
     ensembles: &[Ensemble],
     parts: Vec<Vec<Counts>>,
-) -> impl Iterator<Item = EnsembleCounts> {
+) -> impl Iterator<Item = (Ensemble, Vec<Counts>)> {
     let mut at_each = parts.into_iter().map(Counts::from_iter);
-    ensembles.iter().map(move |ensemble| EnsembleCounts {
-        ensemble: ensemble.clone(),
-        counts: at_each.by_ref().take(ensemble.sigmas.len()).collect(),
-    })
+    let counts = move |one: &Ensemble| at_each.by_ref().take(one.sigmas.len()).collect();
+    ensembles.iter().cloned().zip(ensembles.iter().map(counts))
 }
 
 fn join(
@@ -123,7 +115,7 @@ fn join(
     parts: Vec<Vec<Counts>>,
     progress: &Progress,
 ) -> Result<Vec<Counted>, Error> {
-    let summarise = |EnsembleCounts { ensemble: one, counts }| {
+    let summarise = |(one, counts): (Ensemble, Vec<Counts>)| {
         let totals = |(&sigma, counts): (&f64, &Counts)| RunTotals {
             sigma,
             realisations: one.realisations_at(sigma),

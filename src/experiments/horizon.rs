@@ -4,16 +4,11 @@
 //! change of one amplitude alone is rounded away.
 
 use crate::experiments::prelude::*;
-use crate::params::Runs;
-use impact_numerics::statistics::slope;
 
 pub const HORIZON: Experiment<Runs, Horizon> = Experiment {
-    name: "horizon",
     own: &["src/experiments/horizon.rs"],
-    reads: &[],
-    parameters: Runs::horizon,
     how: Whole(run, |parameters| parameters.realisations as u64 * WORK_PER_SECOND / 300),
-    tables,
+    ..Experiment::new("horizon", Runs::horizon, run, tables)
 };
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -2,7 +2,6 @@
 
 use super::ensembles::{Ensembles, ensembles};
 use crate::experiments::prelude::*;
-use crate::params;
 use impact_chain::Start;
 
 pub const LENGTHS: Ensembles = ensembles("lengths", "lengths", params::lengths, tables);

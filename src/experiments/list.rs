@@ -109,9 +109,8 @@ pub fn bare() -> Paper {
             "crates/page/src"
         )
     };
-    let project = Project::new(sources);
     let title = "A literate, reproducible edition of Homer & Hogan (2007), Impact Dynamics of Large Dimensional Systems";
-    let project = Project { shared: SHARED, apart: APART, ..project };
+    let project = Project { shared: SHARED, apart: APART, ..Project::new(sources) };
     #[cfg(feature = "embed")]
     let project = Project {
         copy: literate::texts!("templates", "benches/measured.json", "benches/scenes.json"),

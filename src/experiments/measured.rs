@@ -2,8 +2,6 @@
 //! run to run, so nothing of the reproduction depends on them.
 
 use crate::experiments::prelude::*;
-use crate::params::{MethodName, Runs, Setting};
-use literate::input::one_line;
 use serde::de::DeserializeOwned;
 
 pub const MEASURED: Experiment<(), Measured> = Experiment {
@@ -191,13 +189,11 @@ pub fn tables(measured: &Measured) -> Vec<Table> {
     const THOUSAND: &str = "time of one core for a thousand chains";
     // The last session of the engine and that of the methods, which may be one.
     let parts = [("engine", Subject::Engine), ("methods", Subject::Method)];
-    let session = |subject: Subject| {
-        let is_about =
-            |session: &&MeasuredOn| session.rows.iter().any(|row| row.subject == subject);
-        measured.sessions.iter().rfind(is_about)
+    let session = |(part, subject): (&'static str, Subject)| {
+        let is_about = |on: &&MeasuredOn| on.rows.iter().any(|row| row.subject == subject);
+        Some((part, measured.sessions.iter().rfind(is_about)?))
     };
-    let sessions: Vec<(&str, &MeasuredOn)> =
-        parts.into_iter().filter_map(|(part, subject)| Some((part, session(subject)?))).collect();
+    let sessions = Vec::from_iter(parts.into_iter().filter_map(session));
     let machine = Table::builder("measured.machine", &sessions, |_| 1)
         .text_key("of", |(part, _)| (*part).into())
         .words("date", "when", |(_, on)| on.date.clone())

@@ -1,18 +1,25 @@
 //! Gathers what most experiments use, and the units and words that several tables have.
 
 pub use crate::experiments::ensembles::{Counted, find_ensemble, run_each};
-pub use crate::params::Chain;
-pub use impact_chain::State;
+pub use crate::params::{
+    self, BiasParams, Boundary, Chain, Ensemble, Grid, LEVEL, Means, MethodName, NucleationParams,
+    Profile, Protocol, RaceParams, Runs, SEED, ScaleParams, SeedsParams, Setting, Start,
+    TwoMassesParams, VERTICES,
+};
 pub use impact_chain::rise::Curve;
-pub use impact_chain::{Engine, Impact, Scenario};
-pub use impact_numerics::estimates::{average, difference, share, with_error};
+pub use impact_chain::{Counts, Engine, Impact, Scenario, State};
+pub use impact_numerics::estimates::{average, difference, jackknife, ratio, share, with_error};
 pub use impact_numerics::random::{NormalPairs, Seed};
-pub use impact_numerics::statistics::Estimate;
-pub use literate::experiments::cutting::WORK_PER_SECOND;
-pub use literate::experiments::experiment::How::{Read, Whole};
+pub use impact_numerics::statistics::{
+    Estimate, last_rise, mean, quantile, slope, standard_error, student_quantile, wilson,
+};
+pub use literate::experiments::cutting::{Cutting, WORK_PER_SECOND};
+pub use literate::experiments::experiment::How::{Cut, Read, Whole};
 pub use literate::experiments::{Error, Experiment, Progress, Results, Session};
+pub use literate::input::one_line;
 pub use literate::table::Table;
 pub use literate::value::origin;
+pub use rayon::prelude::*;
 pub use serde::{Deserialize, Serialize};
 
 pub const SIGMA: &str = "d omega^2";

@@ -1,17 +1,13 @@
 //! Runs what a page repeats, each run with a digest of the bits of its impacts.
 
 use crate::experiments::prelude::*;
-use crate::params::{Boundary, Profile, Protocol, SEED, Start, printed_threshold};
 use literate::input::sha256;
 use std::collections::BTreeSet;
 
 pub const REPLAY: Experiment<ReplayRuns, Replays> = Experiment {
-    name: "replay",
     own: &["src/experiments/replay.rs"],
-    reads: &[],
-    parameters: runs,
     how: Whole(run, |_| WORK_PER_SECOND / 10),
-    tables,
+    ..Experiment::new("replay", runs, run, tables)
 };
 
 /// The input of a run: all that determines its bits.
@@ -66,7 +62,7 @@ pub fn runs(_: Profile) -> ReplayRuns {
         let chain = Chain { masses: pairs.len(), restitution, ..Chain::default() };
         Request { chain, forces: Forces::Given(pairs), transient: 0.0, window: until }
     };
-    let (chain, threshold) = (Chain::default, printed_threshold());
+    let (chain, threshold) = (Chain::default, params::printed_threshold());
     let at_threshold = format!("Fig. 3 at σ = {threshold}");
     let hit_twice = vec![[2.0, 1.0], [0.0; 2], [-2.0, -1.0]];
     let third = Forces::Drawn { sigma: 0.1, stream: "sweep".into(), seed: SEED, realisation: 3 };

@@ -2,7 +2,6 @@
 
 use super::ensembles::{Ensembles, ensembles};
 use crate::experiments::prelude::*;
-use crate::params;
 
 pub const RESTITUTION: Ensembles =
     ensembles("restitution", "restitution", params::restitution, tables);

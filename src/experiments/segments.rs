@@ -1,9 +1,7 @@
 //! Replays the motions of Figs. 5(b) and 6(b), and a periodic orbit for each of their circuits.
 
 use crate::experiments::prelude::*;
-use crate::params::Start;
 use impact_circuits::graph::Graph;
-use literate::input::one_line;
 use std::collections::{BTreeMap, BTreeSet};
 
 pub const SEGMENTS: Experiment<(), Segments> = Experiment {
@@ -110,8 +108,7 @@ impl Segment {
     /// Returns the number of masses with an impact.
     pub fn masses_hit(&self) -> usize {
         let both_sides = self.impacts.iter().flat_map(|impact| [impact.gap, impact.gap + 1]);
-        let masses = both_sides.filter(|body| (1..=self.masses).contains(body));
-        masses.collect::<BTreeSet<_>>().len()
+        both_sides.filter(|body| (1..=self.masses).contains(body)).collect::<BTreeSet<_>>().len()
     }
 
     /// Returns the number of different instants at which it has impacts.

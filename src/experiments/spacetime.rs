@@ -1,15 +1,11 @@
 //! Records one long run at the printed threshold: the first with impacts in its last part.
 
 use crate::experiments::prelude::*;
-use crate::params::Runs;
 
 pub const SPACE_TIME: Experiment<Runs, SpaceTime> = Experiment {
-    name: "spacetime",
     own: &["src/experiments/spacetime.rs"],
-    reads: &[],
-    parameters: Runs::spacetime,
     how: Whole(run, |parameters| parameters.until as u64 * WORK_PER_SECOND / 100_000),
-    tables,
+    ..Experiment::new("spacetime", Runs::spacetime, run, tables)
 };
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -97,7 +93,6 @@ pub fn tables(run: &SpaceTime) -> Vec<Table> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::params::{Chain, Profile};
 
     /// Gap 1 starts, then 2 and 0 follow; gap 4 starts and 3 is never hit.
     #[test]

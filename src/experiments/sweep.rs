@@ -2,7 +2,7 @@
 
 use super::ensembles::{Ensembles, ensembles};
 use crate::experiments::prelude::*;
-use crate::params::{self, LEVEL, NEAR_SIMULTANEOUS, SLOW, printed_threshold};
+use crate::params::{NEAR_SIMULTANEOUS, SLOW, printed_threshold};
 use impact_chain::counts::{NEAR_DECADES, SLOW_DECADES, Total};
 use impact_chain::rise::RisePoint;
 

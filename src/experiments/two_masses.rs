@@ -5,16 +5,12 @@
 //! bound or above, and close to it in long times, because ω and Ω are incommensurable.
 
 use crate::experiments::prelude::*;
-use crate::params::TwoMassesParams;
 use impact_circuits::nucleation::{closing_pull, pulls};
 
 pub const TWO_MASSES: Experiment<TwoMassesParams, TwoMasses> = Experiment {
-    name: "two_masses",
     own: &["src/experiments/two_masses.rs"],
-    reads: &[],
-    parameters: TwoMassesParams::new,
     how: Whole(run, |parameters| parameters.directions.realisations as u64 * WORK_PER_SECOND / 800),
-    tables,
+    ..Experiment::new("two_masses", TwoMassesParams::new, run, tables)
 };
 
 /// The worst directions for Ω > ω: opposite forces that the start from rest amplifies.

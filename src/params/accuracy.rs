@@ -2,32 +2,34 @@
 
 use super::chosen::SEED;
 use super::ensemble::Ensemble;
-use super::methods::{MethodName, Setting};
+use super::methods::MethodName::{self, *};
+use super::methods::Setting;
 use super::runs::Runs;
 use impact_chain::{Chain, Protocol};
 use literate::experiments::Profile;
 use serde::{Deserialize, Serialize};
 
-/// The settings of a method in each experiment, coarse to fine; empty where it has no part.
-struct MethodSettings {
-    method: MethodName,
-    /// In the race against the true motion, and the one of the quick profile.
-    race: &'static [f64],
-    quick_race: f64,
-    /// In the scenes where methods fail.
-    scenes: &'static [f64],
-    /// Against the number of masses.
-    scale: &'static [f64],
-    /// For the mean, each with its number of chains at each of [`MEANS`]. The engine and the
-    /// cheapest rivals have so many that the 95 % interval is about half of what is asked; less is
-    /// enough for one that is far off, and for one that takes longer than another that suffices.
-    means: &'static [(f64, [usize; 4])],
-}
+/// The settings of a method in each experiment, coarse to fine, none where it has no part: in the
+/// race against the true motion, the one of the quick profile there, in the scenes where methods
+/// fail, and against the number of masses.
+type MethodSettings = (MethodName, &'static [f64], f64, &'static [f64], &'static [f64]);
 
 /// Settings that several methods have.
 const STEPS: &[f64] = &[1e-1, 1e-2, 1e-3, 1e-4];
 const FEW_STEPS: &[f64] = &[1e-2, 1e-4];
 const TOLERANCES: &[f64] = &[1e-6, 1e-12];
+
+/// The methods in the order of the tables.
+const METHODS: [MethodSettings; 8] = [
+    (Certified, &[0.0], 0.0, &[0.0], &[0.0]),
+    (Sampled, &[0.5, 0.25, 0.1, 0.03, 0.01], 0.1, &[0.1, 0.01], &[0.25]),
+    (Advancement, &[1e-3, 1e-6, 1e-9, 1e-12, 1e-14], 1e-9, TOLERANCES, &[1e-12]),
+    (RungeKutta, &[1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13], 1e-3, TOLERANCES, &[1e-6]),
+    (MoreauJean, STEPS, 0.1, FEW_STEPS, &[0.01]),
+    (Verlet, STEPS, 0.1, FEW_STEPS, &[0.01]),
+    (Penalty, STEPS, 0.1, FEW_STEPS, &[]),
+    (VerletAbreast, &[0.1, 0.03, 0.01], 0.03, &[], &[]),
+];
 
 /// σ of the chains whose mean is compared, and the time T that is dropped: up the rise, and late.
 const MEANS: [(f64, f64); 4] = [(0.11, 500.0), (0.12, 500.0), (0.14, 500.0), (0.115, 2000.0)];
@@ -35,79 +37,34 @@ const MEANS: [(f64, f64); 4] = [(0.11, 500.0), (0.12, 500.0), (0.14, 500.0), (0.
 /// Chains at each of [`MEANS`] of the engine and of the cheapest rival.
 const MANY: [usize; 4] = [3000, 1000, 1600, 1500];
 
-/// The methods in the order of the tables.
-const METHODS: [MethodSettings; 8] = [
-    MethodSettings {
-        method: MethodName::Certified,
-        race: &[0.0],
-        quick_race: 0.0,
-        scenes: &[0.0],
-        scale: &[0.0],
-        means: &[(0.0, MANY)],
-    },
-    MethodSettings {
-        method: MethodName::Sampled,
-        race: &[0.5, 0.25, 0.1, 0.03, 0.01],
-        quick_race: 0.1,
-        scenes: &[0.1, 0.01],
-        scale: &[0.25],
-        means: &[(0.25, [100, 60, 40, 20])],
-    },
-    MethodSettings {
-        method: MethodName::Advancement,
-        race: &[1e-3, 1e-6, 1e-9, 1e-12, 1e-14],
-        quick_race: 1e-9,
-        scenes: TOLERANCES,
-        scale: &[1e-12],
-        means: &[(1e-2, [40, 40, 20, 20]), (1e-12, [100, 40, 30, 20])],
-    },
-    MethodSettings {
-        method: MethodName::RungeKutta,
-        race: &[1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13],
-        quick_race: 1e-3,
-        scenes: TOLERANCES,
-        scale: &[1e-6],
-        means: &[(1e-3, [8, 0, 0, 0]), (1e-6, [4, 4, 4, 0])],
-    },
-    MethodSettings {
-        method: MethodName::MoreauJean,
-        race: STEPS,
-        quick_race: 0.1,
-        scenes: FEW_STEPS,
-        scale: &[0.01],
-        means: &[(0.1, [100, 60, 60, 20]), (0.01, [10, 10, 10, 0])],
-    },
-    MethodSettings {
-        method: MethodName::Verlet,
-        race: STEPS,
-        quick_race: 0.1,
-        scenes: FEW_STEPS,
-        scale: &[0.01],
-        means: &[(0.3, [400, 400, 200, 100]), (0.1, [400, 100, 400, 40]), (0.01, [10, 10, 10, 0])],
-    },
-    MethodSettings {
-        method: MethodName::Penalty,
-        race: STEPS,
-        quick_race: 0.1,
-        scenes: FEW_STEPS,
-        scale: &[],
-        means: &[(0.1, [40, 40, 20, 20]), (0.01, [10, 10, 10, 0])],
-    },
-    MethodSettings {
-        method: MethodName::VerletAbreast,
-        race: &[0.1, 0.03, 0.01],
-        quick_race: 0.03,
-        scenes: &[],
-        scale: &[],
-        means: &[(0.5, MANY), (0.4, MANY), (0.3, MANY), (0.2, MANY), (0.1, MANY)],
-    },
+/// The settings for the mean, each with its number of chains at each of [`MEANS`]. The engine and
+/// the cheapest rivals have so many that the 95 % interval is about half of what is asked; less is
+/// enough for one that is far off, and for one that takes longer than another that suffices.
+const CHAINS: [(MethodName, f64, [usize; 4]); 18] = [
+    (Certified, 0.0, MANY),
+    (Sampled, 0.25, [100, 60, 40, 20]),
+    (Advancement, 1e-2, [40, 40, 20, 20]),
+    (Advancement, 1e-12, [100, 40, 30, 20]),
+    (RungeKutta, 1e-3, [8, 0, 0, 0]),
+    (RungeKutta, 1e-6, [4, 4, 4, 0]),
+    (MoreauJean, 0.1, [100, 60, 60, 20]),
+    (MoreauJean, 0.01, [10, 10, 10, 0]),
+    (Verlet, 0.3, [400, 400, 200, 100]),
+    (Verlet, 0.1, [400, 100, 400, 40]),
+    (Verlet, 0.01, [10, 10, 10, 0]),
+    (Penalty, 0.1, [40, 40, 20, 20]),
+    (Penalty, 0.01, [10, 10, 10, 0]),
+    (VerletAbreast, 0.5, MANY),
+    (VerletAbreast, 0.4, MANY),
+    (VerletAbreast, 0.3, MANY),
+    (VerletAbreast, 0.2, MANY),
+    (VerletAbreast, 0.1, MANY),
 ];
 
 /// Lists some settings of all methods.
 fn settings(values: impl Fn(&'static MethodSettings) -> &'static [f64]) -> Vec<Setting> {
     let own = |one: &'static MethodSettings| {
-        let MethodSettings { method, .. } = *one;
-        values(one).iter().map(move |&value| Setting { method, value, stop: 0.0 })
+        values(one).iter().map(|&value| Setting { method: one.0, value, stop: 0.0 })
     };
     METHODS.iter().flat_map(own).collect()
 }
@@ -138,10 +95,8 @@ impl RaceParams {
         let chain = Chain { masses: 20, ..Chain::default() };
         let (stream, seed) = (BENCH_STREAM.into(), BENCH_SEED);
         let growth = Runs { chain, sigma: 0.3, until: 300.0, realisations, stream, seed };
-        let race = |one: &'static MethodSettings| {
-            if quick { std::slice::from_ref(&one.quick_race) } else { one.race }
-        };
-        let settings = settings(race);
+        let settings =
+            settings(|(_, race, one, ..)| if quick { std::slice::from_ref(one) } else { race });
         RaceParams { growth, until, at_least, chains, segments, settings }
     }
 }
@@ -153,7 +108,7 @@ const STOPS: [f64; 2] = [1e-3, 1e-4];
 /// coarse, and then with the least rebound speeds.
 pub fn trial_settings(profile: Profile) -> Vec<Setting> {
     let most = if profile == Profile::Quick { 1 } else { usize::MAX };
-    let mut settings = settings(|one| &one.scenes[..one.scenes.len().min(most)]);
+    let mut settings = settings(|(.., scenes, _)| &scenes[..scenes.len().min(most)]);
     for method in MethodName::ALL.into_iter().filter(|method| method.locates_impacts()) {
         if let Some(fine) = settings.iter().rposition(|setting| setting.method == method) {
             let stopping = STOPS.map(|stop| Setting { stop, ..settings[fine] });
@@ -179,7 +134,7 @@ impl ScaleParams {
             Profile::Full => (vec![10, 30, 100, 300, 1000, 10_000], 300),
             Profile::Quick => (vec![10, 30, 100, 1000], 30),
         };
-        let settings = settings(|one| one.scale);
+        let settings = settings(|(.., scale)| scale);
         ScaleParams { sigma: 0.3, masses, largest_for_rivals, settings }
     }
 }
@@ -234,11 +189,9 @@ impl BiasParams {
             let (sigma, transient) = if quick { (place.0, 100.0) } else { place };
             let window = if quick { 100.0 } else { Protocol::default().window };
             let mut settings = Vec::new();
-            for MethodSettings { method, means, .. } in &METHODS {
-                for &(value, chains) in means.iter().filter(|(_, chains)| chains[i] > 0) {
-                    let chains = if quick { chains[i].min(2) } else { chains[i] };
-                    settings.push((Setting { method: *method, value, stop: 0.0 }, chains));
-                }
+            for (method, value, chains) in CHAINS.into_iter().filter(|row| row.2[i] > 0) {
+                let chains = if quick { chains[i].min(2) } else { chains[i] };
+                settings.push((Setting { method, value, stop: 0.0 }, chains));
             }
             let (chain, until, stream) = (Chain::default(), transient + window, "sweep".into());
             let realisations = settings[0].1;
@@ -251,11 +204,8 @@ impl BiasParams {
     /// Counts the runs of all methods.
     pub fn runs(&self) -> u64 {
         let settings = self.means.iter().flat_map(|means| &means.settings);
-        settings.map(|(_, chains)| *chains as u64).sum::<u64>() + self.engine_again()
-    }
-
-    /// Counts the chains that the engine runs again, to know what chaos makes of a rounding.
-    fn engine_again(&self) -> u64 {
-        self.means.iter().map(|means| means.chains.realisations as u64).sum()
+        // The engine runs its chains again, to know what chaos makes of a rounding.
+        let again = self.means.iter().map(|means| means.chains.realisations as u64);
+        settings.map(|(_, chains)| *chains as u64).chain(again).sum()
     }
 }

@@ -108,21 +108,17 @@ impl Ensemble {
         Realisations { ensemble: self, sigma, heating, counting }
     }
 
-    /// Counts the gaps of each piece in each window, instead of those of the chain.
+    /// Counts the gaps with an impact of each piece in each window, instead of those of the chain.
     fn count_pieces(&self, counts: &mut Counts, watch: &Watch) {
         for (distinct, window) in counts.distinct.iter_mut().zip(&self.protocols) {
-            *distinct = match watch.gaps_hit(window).filter(|_| distinct[0].is_some()) {
-                Some(hit) => self.piece_counts(&hit),
-                None => vec![None; self.pieces],
+            let hit = watch.gaps_hit(window).filter(|_| distinct[0].is_some());
+            let count = |piece: usize| {
+                let hit = hit.as_ref()?;
+                let [from, to] = [piece, piece + 1].map(|end| end * hit.len() / self.pieces);
+                Some(hit[from..to].iter().map(|&hit| u32::from(hit)).sum())
             };
+            *distinct = (0..self.pieces).map(count).collect();
         }
-    }
-
-    /// Counts the gaps with an impact in each piece.
-    fn piece_counts(&self, hit: &[bool]) -> Vec<Option<u32>> {
-        let ends = |piece| piece * hit.len() / self.pieces;
-        let count = |piece| hit[ends(piece)..ends(piece + 1)].iter().map(|&hit| u32::from(hit));
-        (0..self.pieces).map(|piece| Some(count(piece).sum())).collect()
     }
 
     fn normals(&self, index: u64) -> NormalPairs {

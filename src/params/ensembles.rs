@@ -7,7 +7,7 @@ use impact_chain::{Boundary, Chain, Protocol, Start};
 use literate::experiments::Profile;
 
 /// Lists the windows (T, T + W] of all transients T, each with all widths W.
-fn windows(transients: &[f64], widths: &[f64]) -> Vec<Protocol> {
+pub fn windows(transients: &[f64], widths: &[f64]) -> Vec<Protocol> {
     let after = |&transient| widths.iter().map(move |&window| Protocol { transient, window });
     transients.iter().flat_map(after).collect()
 }
@@ -203,17 +203,14 @@ pub fn restitution(profile: Profile) -> Vec<Ensemble> {
         ),
         Profile::Quick => (vec![(&[0.0, 0.8], Grid::default().and([9, 15, 30, 60], 100))], 2),
     };
-    let mut ensembles = Vec::new();
-    for (restitutions, sigmas) in cases {
-        for &restitution in restitutions {
-            ensembles.push(Ensemble {
-                chain: Chain { restitution, ..Chain::default() },
-                stream: "restitution".into(),
-                ..paper(&format!("r = {restitution}"), sigmas.clone(), realisations)
-            });
-        }
-    }
-    ensembles
+    let ensemble = |restitution: f64, sigmas: &Grid| Ensemble {
+        chain: Chain { restitution, ..Chain::default() },
+        stream: "restitution".into(),
+        ..paper(&format!("r = {restitution}"), sigmas.clone(), realisations)
+    };
+    let of_case =
+        |(all, sigmas): &(&[f64], Grid)| Vec::from_iter(all.iter().map(|r| ensemble(*r, sigmas)));
+    cases.iter().flat_map(of_case).collect()
 }
 
 /// Chains from rest for the jump of the mode, in each window with T + W ≤ 700 of the map, and rings

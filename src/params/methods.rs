@@ -1,9 +1,7 @@
 //! Names the methods of simulation.
 
-use impact_chain::methods::{
-    Advancement, Certified, Method, MoreauJean, Penalty, RungeKutta, Sampled, Truth, Verlet,
-    VerletAbreast,
-};
+use MethodName::*;
+use impact_chain::methods::{self, Method};
 use serde::{Deserialize, Serialize};
 
 /// A method of simulation. In results it has the name of [`Method::name`].
@@ -22,33 +20,22 @@ pub enum MethodName {
 }
 
 impl MethodName {
-    pub const ALL: [MethodName; 8] = [
-        MethodName::Certified,
-        MethodName::Sampled,
-        MethodName::Advancement,
-        MethodName::RungeKutta,
-        MethodName::MoreauJean,
-        MethodName::Verlet,
-        MethodName::Penalty,
-        MethodName::VerletAbreast,
-    ];
+    pub const ALL: [MethodName; 8] =
+        [Certified, Sampled, Advancement, RungeKutta, MoreauJean, Verlet, Penalty, VerletAbreast];
 
     /// Returns the method with its step or tolerance, and a least rebound speed if it can have one.
     pub fn with_setting(self, value: f64, stop: f64) -> Box<dyn Method> {
+        let (step, tolerance, least_rebound) = (value, value, stop);
         match self {
-            MethodName::Certified => Box::new(Certified),
-            MethodName::Sampled => Box::new(Sampled { step: value, least_rebound: stop }),
-            MethodName::Advancement => {
-                Box::new(Advancement { tolerance: value, least_rebound: stop })
-            }
-            MethodName::RungeKutta => {
-                Box::new(RungeKutta { tolerance: value, least_rebound: stop })
-            }
-            MethodName::MoreauJean => Box::new(MoreauJean { step: value }),
-            MethodName::Verlet => Box::new(Verlet { step: value }),
-            MethodName::Penalty => Box::new(Penalty { step: value }),
-            MethodName::VerletAbreast => Box::new(VerletAbreast { step: value }),
-            MethodName::Truth => Box::new(Truth),
+            Certified => Box::new(methods::Certified),
+            Sampled => Box::new(methods::Sampled { step, least_rebound }),
+            Advancement => Box::new(methods::Advancement { tolerance, least_rebound }),
+            RungeKutta => Box::new(methods::RungeKutta { tolerance, least_rebound }),
+            MoreauJean => Box::new(methods::MoreauJean { step }),
+            Verlet => Box::new(methods::Verlet { step }),
+            Penalty => Box::new(methods::Penalty { step }),
+            VerletAbreast => Box::new(methods::VerletAbreast { step }),
+            Truth => Box::new(methods::Truth),
         }
     }
 
@@ -60,25 +47,25 @@ impl MethodName {
     /// Returns its name in tables.
     pub fn title(self) -> &'static str {
         match self {
-            MethodName::Certified => "engine",
-            MethodName::Sampled => "sampling",
-            MethodName::Advancement => "advancement",
-            MethodName::RungeKutta => "Runge–Kutta",
-            MethodName::MoreauJean => "time stepping",
-            MethodName::Verlet => "Verlet",
-            MethodName::Penalty => "penalty springs",
-            MethodName::VerletAbreast => "float32 Verlet",
-            MethodName::Truth => "true motion",
+            Certified => "engine",
+            Sampled => "sampling",
+            Advancement => "advancement",
+            RungeKutta => "Runge–Kutta",
+            MoreauJean => "time stepping",
+            Verlet => "Verlet",
+            Penalty => "penalty springs",
+            VerletAbreast => "float32 Verlet",
+            Truth => "true motion",
         }
     }
 
     /// Returns whether it goes from impact to impact: a least rebound speed helps it to a rest.
     pub fn locates_impacts(self) -> bool {
-        matches!(self, MethodName::Sampled | MethodName::Advancement | MethodName::RungeKutta)
+        matches!(self, Sampled | Advancement | RungeKutta)
     }
 
     pub fn has_tolerance(self) -> bool {
-        matches!(self, MethodName::Advancement | MethodName::RungeKutta)
+        matches!(self, Advancement | RungeKutta)
     }
 }
 
@@ -96,7 +83,7 @@ impl Setting {
     /// Returns its name in tables and data: `Verlet, h = 0.01`, `Runge–Kutta, tol = 1e-6`.
     pub fn name(self) -> String {
         let letter = match self.method {
-            MethodName::Certified => return self.method.title().into(),
+            Certified => return self.method.title().into(),
             method if method.has_tolerance() => "tol",
             _ => "h",
         };

@@ -91,38 +91,35 @@ pub struct Args {
     pub(super) tolerance: Option<f64>,
 }
 
-/// A method, its option with the usual value, and its line of `trace --help` with `{}` for that.
-pub type MethodLine = (MethodName, Option<(&'static str, f64)>, &'static str);
+/// A method, the usual value of its option, and its line of `trace --help` with `{}` for both.
+pub type MethodLine = (MethodName, Option<f64>, &'static str);
 
 pub const METHODS: [MethodLine; 9] = [
     (Certified, None, "Closed form, the first root of each gap certified: misses nothing"),
-    (Sampled, step(0.01), "Closed form, sampled every {}, then Newton: misses close roots"),
-    (Advancement, tolerance(1e-12), "Closed form, parabolas to {}: near misses are impacts"),
-    (RungeKutta, tolerance(1e-9), "Dormand–Prince 5(4) with events, {}: misses close roots"),
-    (MoreauJean, step(1e-3), "Time stepping, {}: first order, near misses are impacts, can rest"),
-    (Verlet, step(1e-3), "Velocity Verlet, reflected after steps of {}: first order, late"),
+    (Sampled, Some(0.01), "Closed form, sampled every {}, then Newton: misses close roots"),
+    (Advancement, Some(1e-12), "Closed form, parabolas to {}: near misses are impacts"),
+    (RungeKutta, Some(1e-9), "Dormand–Prince 5(4) with events, {}: misses close roots"),
+    (MoreauJean, Some(1e-3), "Time stepping, {}: first order, near misses are impacts, can rest"),
+    (Verlet, Some(1e-3), "Velocity Verlet, reflected after steps of {}: first order, late"),
     (
         VerletAbreast,
-        step(1e-2),
+        Some(1e-2),
         "The same for many chains side by side, {}: single precision, for means",
     ),
-    (Penalty, step(1e-4), "Stiff damped springs, {}: order 1/2, wrong in clusters"),
+    (Penalty, Some(1e-4), "Stiff damped springs, {}: order 1/2, wrong in clusters"),
     (Truth, None, "106 bits, slowly: walls, one frequency, no contact; the gap from the engine"),
 ];
 
-const fn step(usual: f64) -> Option<(&'static str, f64)> {
-    Some(("--step", usual))
-}
-
-const fn tolerance(usual: f64) -> Option<(&'static str, f64)> {
-    Some(("--tolerance", usual))
+/// Returns the option of a method that has a step or a tolerance.
+pub fn option(method: MethodName) -> &'static str {
+    if method.has_tolerance() { "--tolerance" } else { "--step" }
 }
 
 /// Returns a parser of the names of methods, which lists them with their lines in the help.
 fn method_names() -> impl TypedValueParser<Value = MethodName> {
-    let name = |(method, option, line): &MethodLine| {
-        let option = option.map_or(String::new(), |(name, usual)| format!("{name} [{usual:?}]"));
-        PossibleValue::new(method.id()).help(line.replace("{}", &option))
+    let name = |&(method, usual, line): &MethodLine| {
+        let usual = usual.map_or(String::new(), |usual| format!("{} [{usual:?}]", option(method)));
+        PossibleValue::new(method.id()).help(line.replace("{}", &usual))
     };
     let names: Vec<PossibleValue> = METHODS.iter().map(name).collect();
     PossibleValuesParser::new(names).try_map(|name| serde_json::from_value(name.into()))

@@ -9,9 +9,7 @@ use crate::experiments::measured::{Subject, Times};
 use crate::experiments::prelude::*;
 use crate::experiments::programs::{Program, Run};
 use crate::experiments::{BIAS, MEASURED, PROGRAMS, RACE, TRIALS};
-use crate::params::{Means, MethodName::Certified, Setting};
-use impact_numerics::estimates::LEVEL;
-use impact_numerics::statistics::{mean, student_quantile, wilson};
+use crate::params::MethodName::Certified;
 use literate::table::Building;
 
 /// How far a mean may be off, relative to it, at each σ.
@@ -37,26 +35,25 @@ struct Answer {
     chains: usize,
     /// The error, or the share of runs that are right to the time that is asked.
     result: Estimate,
-    /// How far this is inside of what is allowed; negative outside.
-    margin: f64,
-    /// From the value to the end of its 95 % interval that lies towards what is allowed.
-    half_interval: f64,
+    /// Whether this is surely within what is allowed or surely not, or `None` if chains do not
+    /// tell.
+    is_enough: Option<bool>,
 }
 
-/// Returns half of the 95 % interval of a mean over chains, by Student's t.
-fn half_interval(chains: usize, error: f64) -> f64 {
+/// Returns the 95 % interval of a mean over chains, by Student's t.
+fn interval(mean: f64, chains: usize, error: f64) -> [f64; 2] {
     let quantile = student_quantile(LEVEL, chains.saturating_sub(1));
-    quantile.map_or(f64::INFINITY, |t| t * error)
+    let half = quantile.map_or(f64::INFINITY, |t| t * error);
+    [mean - half, mean + half]
 }
 
-impl Answer {
-    fn is_enough(&self) -> bool {
-        self.margin >= self.half_interval
-    }
+/// Returns on which side of what is allowed the interval of an error lies, if on one.
+fn is_within([low, high]: [f64; 2], allowed: f64) -> Option<bool> {
+    (high <= allowed || low >= allowed).then_some(high <= allowed)
 }
 
 fn cheapest<'a>(answers: impl IntoIterator<Item = &'a Answer>) -> Option<&'a Answer> {
-    let enough = answers.into_iter().filter(|answer| answer.is_enough());
+    let enough = answers.into_iter().filter(|answer| answer.is_enough == Some(true));
     enough.min_by(|a, b| a.seconds.total_cmp(&b.seconds))
 }
 
@@ -84,14 +81,16 @@ impl Question {
 
     /// Names the method of the least time, or says that it ties, or that the chains do not decide.
     fn choice(&self) -> String {
-        let engine = self.engine().filter(|engine| engine.is_enough());
+        let engine = self.engine().filter(|engine| engine.is_enough == Some(true));
         let is_near =
             |answer: &Answer| engine.is_some_and(|engine| answer.seconds < TIE * engine.seconds);
-        let is_open =
-            |answer: &Answer| !answer.is_enough() && answer.margin > -answer.half_interval;
         match self.rival().zip(engine) {
             Some((rival, engine)) if TIE * rival.seconds <= engine.seconds => name_of(Some(rival)),
-            _ if self.answers.iter().any(|answer| is_open(answer) && is_near(answer)) => {
+            _ if self
+                .answers
+                .iter()
+                .any(|answer| answer.is_enough.is_none() && is_near(answer)) =>
+            {
                 "undecided".into()
             }
             Some((rival, _)) if is_near(rival) => "tie".into(),
@@ -110,13 +109,11 @@ pub fn tables(results: &Results, _: &[Table]) -> Option<Vec<Table>> {
             let times = Times { measured, is_generic };
             let seconds = times.seconds(Subject::Question, setting, run, until)?;
             let right = entry.runs.iter().filter(|left| **left >= until).count();
-            let interval = wilson(right as u64, chains as u64, LEVEL)?;
-            let value = right as f64 / chains as f64;
-            let error = (interval[1] - interval[0]) / 4.0;
-            let (result, margin) = (Estimate { value, error, interval }, value - MOST);
-            let half_interval =
-                if margin > 0.0 { value - interval[0] } else { interval[1] - value };
-            Some(Answer { setting, seconds, chains, result, margin, half_interval })
+            let [low, high] = wilson(right as u64, chains as u64, LEVEL)?;
+            let (value, error) = (right as f64 / chains as f64, (high - low) / 4.0);
+            let result = Estimate { value, error, interval: [low, high] };
+            let is_enough = is_within([1.0 - high, 1.0 - low], 1.0 - MOST);
+            Some(Answer { setting, seconds, chains, result, is_enough })
         };
         Question {
             id: until.to_string(),
@@ -234,14 +231,13 @@ fn question(
         };
         let seconds = ensembles.iter().map(time).sum::<Option<f64>>()?;
         let (chains, off) = (errors.len(), result.value.abs());
-        let margin = tolerance - off;
-        let half_interval = if is_share && setting.method != Certified {
-            let [low, high] = wilson((off * chains as f64).round() as u64, chains as u64, LEVEL)?;
-            if margin > 0.0 { high - off } else { off - low }
+        let interval = if is_share && setting.method != Certified {
+            wilson((off * chains as f64).round() as u64, chains as u64, LEVEL)?
         } else {
-            half_interval(chains, result.error)
+            interval(off, chains, result.error)
         };
-        Some(Answer { setting, seconds, chains, result, margin, half_interval })
+        let is_enough = is_within(interval, tolerance);
+        Some(Answer { setting, seconds, chains, result, is_enough })
     };
     let answers = ensembles[0].0.settings.iter().filter_map(answer).collect();
     Some(Question { id, words, answers })
@@ -319,14 +315,9 @@ mod tests {
 
     fn answer(seconds: f64, margin: f64, error: f64) -> Answer {
         let setting = Setting { method: Verlet, value: seconds, stop: 0.0 };
-        Answer {
-            setting,
-            seconds,
-            chains: 100,
-            result: with_error(0.0, error),
-            margin,
-            half_interval: half_interval(100, error),
-        }
+        let (chains, result) = (100, with_error(0.0, error));
+        let is_enough = is_within(interval(1.0 - margin, chains, error), 1.0);
+        Answer { setting, seconds, chains, result, is_enough }
     }
 
     #[test]

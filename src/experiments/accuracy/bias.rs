@@ -1,10 +1,10 @@
 //! The error of a method in the mean number of gaps that impact, on the same chains.
 
+use crate::experiments::ensembles::run_unit;
 use crate::experiments::prelude::*;
-use crate::params::{BiasParams, Means, MethodName, Setting};
+use impact_chain::HitGaps;
 use impact_chain::methods::{CountedSteps, Task, VerletAbreast};
-use impact_chain::{Abreast, HitGaps};
-use rayon::prelude::*;
+use literate::experiments::cutting::Unit;
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Biases {
@@ -21,19 +21,10 @@ pub type GapCount = Option<u32>;
 pub fn run(parameters: &BiasParams, progress: &Progress) -> Result<Biases, Error> {
     let stage = progress.stage("error of the mean", parameters.runs());
     let together = |means: &Means, nudged: bool| {
-        let ensemble = means.ensemble(nudged);
-        let (number, end) = (Abreast::batch_size(&ensemble.chain), ensemble.realisations as u64);
-        let groups = (0..end).step_by(number);
-        let counts = run_each(&stage, progress, groups, |first| {
-            let realisations = ensemble.prepare(ensemble.sigmas[0]);
-            let group = first..end.min(first + number as u64);
-            let counts = realisations.count(group, &|| progress.stopped());
-            let counts = counts.map_err(|source| Error::failed("bias", source))?;
-            stage.advance(counts.len() as u64 - 1);
-            Ok(counts.into_iter().map(|one| one.distinct[0][0]).collect::<Vec<_>>())
-        })?;
-        progress.check()?;
-        Ok(counts.concat())
+        let realisations = 0..means.chains.realisations;
+        let unit = Unit { realisations, ..Unit::whole(means.chains.realisations as u64) };
+        let counts = run_unit(&vec![means.ensemble(nudged)], &unit, &stage, progress)?;
+        Ok(counts.distinct.concat())
     };
     let methods = |means: &Means| {
         let one = |&(setting, realisations): &(Setting, usize)| {

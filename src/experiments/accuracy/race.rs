@@ -2,11 +2,9 @@
 
 use crate::experiments::horizon::{self, Horizon};
 use crate::experiments::prelude::*;
-use crate::params::{RaceParams, Setting};
 use impact_chain::methods::truth::{Hit, TrueMotion};
 use impact_chain::methods::{Cost, Method, Task};
 use impact_numerics::double_double::DoubleDouble;
-use impact_numerics::statistics::{mean, quantile, standard_error};
 
 /// A time off by more than this counts as lost, in units of 1/ω.
 pub const DISPLACED: f64 = 1e-3;

@@ -1,7 +1,6 @@
 //! Counts the work of an impact against the number of masses.
 
 use crate::experiments::prelude::*;
-use crate::params::{BENCH_SEED, BENCH_STREAM, MethodName, ScaleParams, Setting};
 use impact_chain::methods::Task;
 
 /// The work of a method on a chain.
@@ -31,7 +30,7 @@ pub fn run(parameters: &ScaleParams, progress: &Progress) -> Result<Scale, Error
     let stage = progress.stage("work against size", cases.len() as u64);
     run_each(&stage, progress, cases, |(setting, masses)| {
         let chain = Chain { masses, ..Chain::default() };
-        let mut normals = NormalPairs::new(BENCH_STREAM, Seed(BENCH_SEED), 0);
+        let mut normals = NormalPairs::new(params::BENCH_STREAM, Seed(params::BENCH_SEED), 0);
         let scenario = Scenario::draw(&chain, parameters.sigma, &mut normals);
         let (start, until) = (State::from_scenario(&scenario), until(setting, masses));
         let mut go_on = |_| !progress.stopped();

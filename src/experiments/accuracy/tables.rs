@@ -4,9 +4,6 @@ use super::bias::{self, Biases, GapCount};
 use super::race::{self, DISPLACED, Entry, Race};
 use super::scale::{self, Scale};
 use crate::experiments::prelude::*;
-use crate::params::Setting;
-use impact_numerics::estimates::{LEVEL, ratio};
-use impact_numerics::statistics::{mean, standard_error, student_quantile};
 
 /// Writes the name of a setting with its formula: `Verlet, $h = 0.1$`.
 pub fn in_formulas(name: &str) -> String {

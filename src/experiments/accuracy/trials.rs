@@ -2,8 +2,6 @@
 
 use super::case::{Case, Outcome, Scene, scenes};
 use crate::experiments::prelude::*;
-use crate::params::{Profile, Setting, trial_settings};
-use rayon::prelude::*;
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TrialParams {
@@ -23,7 +21,7 @@ impl TrialParams {
             }
             scenes.retain(|scene| !scene.cases.is_empty());
         }
-        TrialParams { settings: trial_settings(profile), scenes }
+        TrialParams { settings: params::trial_settings(profile), scenes }
     }
 
     pub fn cases(&self) -> usize {
@@ -120,7 +118,6 @@ fn outcome(setting: Setting, case: &Case) -> (Outcome, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::params::MethodName;
 
     #[test]
     fn a_stopping_speed_brings_a_mass_to_rest() {

@@ -84,7 +84,6 @@ impl Law {
 mod tests {
     use super::super::pairs::tests::pair;
     use super::*;
-    use impact_numerics::statistics::standard_error;
 
     /// Chains differ in the amplitude, or in the limit if there is one.
     #[test]

@@ -1,22 +1,34 @@
-//! Compares chains from rest with chains from above under the same forces.
+//! Compares chains from rest with chains from above under the same forces; the latter run well
+//! beyond the rise first, then all forces are lowered by one factor. Chain i has the same forces on
+//! both branches and at every σ.
 
 mod fits;
 mod pairs;
-pub mod run;
 pub mod tables;
 
-pub use run::Chains;
+pub use pairs::Chains;
 
-use crate::params::{self, Ensemble};
-use impact_chain::Counts;
-use literate::experiments::Experiment;
-use literate::experiments::experiment::How::Cut;
+use crate::experiments::ensembles::{join_counts, run_unit, unit_rows};
+use crate::experiments::prelude::*;
 
 pub const BRANCHES: Experiment<Vec<Ensemble>, Vec<Chains>, Counts> = Experiment {
     name: "branches",
     own: &["src/experiments/branches", "src/experiments/ensembles.rs"],
     reads: &[],
     parameters: params::branches,
-    how: Cut("branches", run::CUTTING),
+    how: Cut("branches", Cutting { rows: unit_rows, run_unit, join }),
     tables: tables::make,
 };
+
+fn join(
+    ensembles: &Vec<Ensemble>,
+    parts: Vec<Vec<Counts>>,
+    progress: &Progress,
+) -> Result<Vec<Chains>, Error> {
+    progress.check()?;
+    let chains = |(ensemble, counts): (Ensemble, Vec<Counts>)| {
+        let counts = counts.into_iter().map(|counts| counts.distinct).collect();
+        Chains { ensemble, counts }
+    };
+    Ok(join_counts(ensembles, parts).map(chains).collect())
+}

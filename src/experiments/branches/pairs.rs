@@ -4,10 +4,15 @@
 //! another transient or on the other branch has the same forces. So every error is by leaving out
 //! whole chains in turn (the jackknife), and a difference is taken before its error is.
 
-use super::run::Chains;
 use crate::experiments::prelude::*;
-use impact_numerics::estimates::jackknife;
-use impact_numerics::statistics::{last_rise, mean};
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Chains {
+    pub ensemble: Ensemble,
+    /// For each σ and each window, the active gaps of each chain, or `None` if its run was not
+    /// complete.
+    pub counts: Vec<Vec<Vec<Option<u32>>>>,
+}
 
 /// Shares of active gaps on one branch after one transient.
 #[derive(Clone, Debug, Default)]

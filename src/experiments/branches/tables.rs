@@ -1,8 +1,7 @@
 //! Makes the tables of half heights and shares on both branches.
 
 use super::fits::{LAWS, Law};
-use super::pairs::{Branch, FROM_ABOVE, FROM_REST, Pair, distance};
-use super::run::Chains;
+use super::pairs::{Branch, Chains, FROM_ABOVE, FROM_REST, Pair, distance};
 use crate::experiments::prelude::*;
 
 pub fn make(chains: &Vec<Chains>) -> Vec<Table> {
@@ -62,8 +61,7 @@ fn fits(lengths: &[&[Pair]]) -> Table {
     const LIMIT: &str = "distance after unlimited time";
     const AMPLITUDE: &str = "fitted distance at the first transient less the limit";
     const MISFIT: &str = "sum of squares of distances less fitted ones, each over its error";
-    let laws = lengths.iter().flat_map(|pairs| LAWS.map(|law| (*pairs, law)));
-    let laws: Vec<(&[Pair], Law)> = laws.collect();
+    let laws = Vec::from_iter(lengths.iter().flat_map(|pairs| LAWS.map(|law| (*pairs, law))));
     let estimate = |(pairs, law): &(&[Pair], Law), of| law.estimate(pairs, of);
     Table::builder("branches.fits", &laws, |row| row.0[0].chains())
         .table_computed_by(origin(Law::fit))

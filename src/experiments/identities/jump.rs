@@ -1,11 +1,8 @@
 //! Checks the distribution and its jump, Secs. 6 and 7: identities, signs, zeros and slopes.
 
-use crate::experiments::theory::basics::{Cases, cases, expect_known, largest};
+use crate::experiments::theory::basics::*;
 use crate::experiments::theory::jump::top;
 use crate::experiments::theory::law::law;
-use crate::params::VERTICES;
-use impact_circuits::distribution::{Law, SampleSpace::Simple};
-use impact_circuits::jump;
 use impact_numerics::scaled::Scaled;
 
 /// The p of Figs. 8 to 14, and some beyond.

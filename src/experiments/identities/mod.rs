@@ -5,8 +5,7 @@ pub(crate) mod circuits;
 pub(crate) mod jump;
 pub(crate) mod relation;
 
-use crate::experiments::prelude::*;
-use crate::experiments::theory::basics::Cases;
+use crate::experiments::theory::basics::*;
 use crate::experiments::theory::census::CENSUS;
 
 pub fn tables() -> Vec<Table> {

@@ -7,10 +7,7 @@ mod tables;
 
 pub use run::Jumps;
 
-use crate::params::{self, Ensemble};
-use impact_chain::Counts;
-use literate::experiments::Experiment;
-use literate::experiments::experiment::How::Cut;
+use crate::experiments::prelude::*;
 
 pub const MODE_JUMP: Experiment<Vec<Ensemble>, Jumps, Counts> = Experiment {
     name: "jump",

@@ -1,12 +1,8 @@
 //! Counts independent chains at each σ, and finds the jump of the mode in each window.
 
-use crate::experiments::ensembles::{EnsembleCounts, join_counts, run_unit, unit_rows};
+use crate::experiments::ensembles::{join_counts, run_unit, unit_rows};
 use crate::experiments::prelude::*;
-use crate::params::{Boundary, Ensemble, Protocol};
-use impact_chain::Counts;
 use impact_chain::mode_jump::{Histogram, ModeJump, Sample, mode_jump};
-use literate::experiments::cutting::Cutting;
-use rayon::prelude::*;
 
 pub const CUTTING: Cutting<Vec<Ensemble>, Counts, Jumps> =
     Cutting { rows: unit_rows, run_unit, join };
@@ -55,8 +51,8 @@ fn join(
     parts: Vec<Vec<Counts>>,
     progress: &Progress,
 ) -> Result<Jumps, Error> {
-    let (rings, walls): (Vec<_>, Vec<_>) = join_counts(ensembles, parts)
-        .partition(|one| one.ensemble.chain.boundary == Boundary::Ring);
+    let (rings, walls): (Vec<_>, Vec<_>) =
+        join_counts(ensembles, parts).partition(|one| one.0.chain.boundary == Boundary::Ring);
     let protocols = ensembles.first().map_or(&[][..], |ensemble| &ensemble.protocols);
     let samples = |window_index: usize| samples_of(&walls, window_index);
     let gaps = ensembles.first().map_or(0, |ensemble| ensemble.chain.gaps());
@@ -66,7 +62,7 @@ fn join(
     };
     let windows = protocols.par_iter().enumerate().with_max_len(1).map(find_jump);
     let windows = windows.collect::<Result<Vec<_>, Error>>()?;
-    let ring_gaps = rings.first().map_or(0, |one| one.ensemble.chain.gaps());
+    let ring_gaps = rings.first().map_or(0, |one| one.0.chain.gaps());
     let ring = window_jump(Protocol::default(), &samples_of(&rings, 0), ring_gaps);
     let ours = protocols.iter().position(|protocol| *protocol == Protocol::default());
     let place = |half_width: usize| {
@@ -90,14 +86,11 @@ fn window_jump(protocol: Protocol, samples: &[Sample<'_>], gaps: usize) -> Windo
 }
 
 /// Returns the counts of a window at each σ.
-fn samples_of(ensembles: &[EnsembleCounts], window_index: usize) -> Vec<Sample<'_>> {
-    let mut samples = Vec::new();
-    for EnsembleCounts { ensemble, counts } in ensembles {
-        samples.push(Sample {
-            sigma: ensemble.sigmas[0],
-            counts: &counts[0].distinct[window_index],
-            seed: ensemble.seed + ensemble.first,
-        });
-    }
-    samples
+fn samples_of(ensembles: &[(Ensemble, Vec<Counts>)], window_index: usize) -> Vec<Sample<'_>> {
+    let samples = ensembles.iter().map(|(ensemble, counts)| Sample {
+        sigma: ensemble.sigmas[0],
+        counts: &counts[0].distinct[window_index],
+        seed: ensemble.seed + ensemble.first,
+    });
+    samples.collect()
 }

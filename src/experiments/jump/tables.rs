@@ -2,7 +2,6 @@
 
 use super::run::{Jumps, WindowJump};
 use crate::experiments::prelude::*;
-use crate::params::Protocol;
 use impact_chain::mode_jump::{Passing, mode_jump};
 
 pub fn make(jumps: &Jumps) -> Vec<Table> {

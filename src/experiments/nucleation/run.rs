@@ -1,9 +1,7 @@
 //! Runs chains to their first impact, and computes how many should have one by the reach of gaps.
 
 use crate::experiments::prelude::*;
-use crate::params::{NucleationParams, Runs};
 use impact_circuits::nucleation::{ANGLES, Chances, PAIR_ANGLES, Reach, sigma_at_which_half_close};
-use rayon::prelude::*;
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Nucleation {

@@ -3,7 +3,6 @@
 use crate::experiments::prelude::*;
 use crate::experiments::theory::comparison::root_mean_square;
 use crate::experiments::{PROTOCOL, SEEDS, SWEEP};
-use crate::params::Protocol;
 
 const OFF: &str =
     "root mean square distance of the predicted mean counts from the simulated ones, in gaps";

@@ -1,8 +1,6 @@
 //! Counts impacts by their distance from the seed.
 
-use crate::params::SeedsParams;
-use impact_numerics::statistics::slope;
-use serde::{Deserialize, Serialize};
+use crate::experiments::prelude::*;
 
 /// One run, in time since its first impact.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

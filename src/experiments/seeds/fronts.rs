@@ -5,8 +5,6 @@
 
 use super::Trace;
 use crate::experiments::prelude::*;
-use crate::params::SeedsParams;
-use impact_numerics::estimates::ratio;
 use std::f64::consts::TAU;
 
 /// The fronts of one run, as numbers of fronts, steps and units of time.

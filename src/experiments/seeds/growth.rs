@@ -11,12 +11,8 @@
 //! seed, and R(l, t) the share that is hit within t.
 
 use super::counting::{ByDistance, Part};
-use crate::params::SeedsParams;
+use crate::experiments::prelude::*;
 use impact_circuits::nucleation::{ANGLES, Chances, PAIR_ANGLES, Reach};
-use impact_numerics::estimates::jackknife;
-use impact_numerics::statistics::{Estimate, last_rise};
-use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
 
 /// Groups of runs, each of which is left out in turn for the error of their sum.
 pub(super) const GROUPS: usize = 8;
@@ -139,7 +135,6 @@ fn expected(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::params::Profile;
 
     /// Against the formula of this module evaluated by logarithms, with walls as corrections.
     #[test]

@@ -11,15 +11,11 @@ pub use counting::{ByDistance, Part, Trace};
 pub use run::{Seeds, run};
 
 use crate::experiments::prelude::*;
-use crate::params::SeedsParams;
 
 pub const SEEDS: Experiment<SeedsParams, Seeds> = Experiment {
-    name: "seeds",
     own: &["src/experiments/seeds"],
-    reads: &[],
-    parameters: SeedsParams::new,
     how: Whole(run, |parameters| {
         (parameters.sigmas.len() * parameters.realisations) as u64 * WORK_PER_SECOND / 600
     }),
-    tables: tables::make,
+    ..Experiment::new("seeds", SeedsParams::new, run, tables::make)
 };

@@ -3,7 +3,6 @@
 use super::counting::{Part, Trace};
 use super::growth::{Prediction, predictions, sums};
 use crate::experiments::prelude::*;
-use crate::params::{SEED, SeedsParams};
 use impact_chain::Event;
 use impact_circuits::nucleation::{closing_pull, pulls};
 use std::ops::ControlFlow::{Break, Continue};

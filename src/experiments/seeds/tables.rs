@@ -5,8 +5,6 @@ use super::fronts::{Fronts, beat, ratio_over_runs};
 use super::growth::{GROUPS, Prediction, sums};
 use super::{ByDistance, Seeds, Trace};
 use crate::experiments::prelude::*;
-use crate::params::SeedsParams;
-use impact_numerics::estimates::jackknife;
 
 struct RunsAtSigma<'a> {
     sigma: f64,
@@ -120,7 +118,6 @@ impl RunsAtSigma<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::params::Profile;
 
     #[test]
     fn two_runs_by_hand() {

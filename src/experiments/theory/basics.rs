@@ -1,7 +1,11 @@
-//! Computes what several tables of the theory need.
+//! Computes and gathers what several tables of the theory need.
 
-use impact_circuits::Error;
-use literate::table::{Building, Table};
+pub(crate) use crate::experiments::prelude::*;
+pub(crate) use impact_circuits::distribution::Law;
+pub(crate) use impact_circuits::distribution::SampleSpace::{self, *};
+pub(crate) use impact_circuits::jump::{self, Jump, p_crit, p_jump};
+pub(crate) use impact_numerics::roots;
+use literate::table::Building;
 use literate::value::Origin;
 
 /// Returns the value of a formula, which exists for the numbers of the paper.
@@ -9,7 +13,7 @@ use literate::value::Origin;
 /// # Panics
 ///
 /// If it does not.
-pub(crate) fn expect_known<T>(result: Result<T, Error>) -> T {
+pub(crate) fn expect_known<T>(result: Result<T, impact_circuits::Error>) -> T {
     result.expect("the theory exists for the paper's N and p")
 }
 

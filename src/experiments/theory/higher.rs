@@ -1,15 +1,11 @@
 //! Computes what circuits that repeat vertices change: Sec. 9, Figs. 13 and 14.
 
-use super::basics::{expect_known, sum};
+use super::basics::*;
 use super::census::{CENSUS, counted};
 use super::comparison::interpolate;
 use super::law::{law, means, simple};
-use crate::experiments::prelude::*;
-use crate::params::{HIGHER_P, REMARK_P, VERTICES};
-use SampleSpace::{FiveClasses, FiveClassesPrinted, Simple};
-use impact_circuits::distribution::{Law, SampleSpace};
+use crate::params::{HIGHER_P, REMARK_P};
 use impact_circuits::higher_order::{CLASSES, SHARED, doubled_as_printed, multiplicity};
-use impact_circuits::jump;
 use impact_numerics::double_double::DoubleDouble;
 
 /// Returns P(X = k) of five classes, k = 1..=N.

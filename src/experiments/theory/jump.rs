@@ -1,13 +1,7 @@
 //! Computes the jump of the most likely number of impacts: Sec. 7, Fig. 10.
 
-use super::basics::{expect_known, one_row};
+use super::basics::*;
 use super::law::{k_star, law};
-use crate::experiments::prelude::*;
-use crate::params::VERTICES;
-use impact_circuits::distribution::Law;
-use impact_circuits::distribution::SampleSpace::Simple;
-use impact_circuits::jump;
-use impact_numerics::roots;
 
 const N: f64 = VERTICES as f64;
 

@@ -1,11 +1,7 @@
 //! Computes the theory for many vertices, with p N held fixed as N grows: Fig. S6.
 
-use super::basics::expect_known;
-use crate::experiments::prelude::*;
-use crate::params::{Grid, LARGE_VERTICES};
-use impact_circuits::distribution::SampleSpace::Simple;
-use impact_circuits::jump::{self, Jump, jump_rule, limit_share, p_jump};
-use rayon::prelude::*;
+use super::basics::*;
+use impact_circuits::jump::{jump_rule, limit_share};
 
 /// At most this many steps of k* between two values of p N are drawn one by one.
 const FEW: usize = 3;
@@ -16,7 +12,7 @@ fn drawn() -> Vec<f64> {
 
 pub(super) fn large() -> Table {
     let jump = |vertices| (vertices as f64, expect_known(p_jump(Simple, vertices)));
-    let jumps: Vec<(f64, Jump)> = LARGE_VERTICES.into_par_iter().map(jump).collect();
+    let jumps: Vec<(f64, Jump)> = params::LARGE_VERTICES.into_par_iter().map(jump).collect();
     Table::builder("theory.large", &jumps, |_| 0)
         .key("n", "1", |(n, _)| *n)
         .real("vertices", "1", 1, "N", |(n, _)| *n)

@@ -1,12 +1,7 @@
 //! Computes the distribution of the number of different impacts: Sec. 6, Figs. 8 and 9.
 
-use super::basics::{expect_known, one_row};
-use crate::experiments::prelude::*;
-use crate::params::{DISTRIBUTION_P, Grid, VERTICES};
-use impact_circuits::distribution::Law;
-use impact_circuits::distribution::SampleSpace::{self, Simple};
-use impact_circuits::jump;
-use impact_numerics::statistics::last_rise;
+use super::basics::*;
+use crate::params::DISTRIBUTION_P;
 
 pub(crate) fn law(space: SampleSpace, p: f64) -> Law {
     expect_known(Law::new(space, VERTICES, p))

@@ -1,16 +1,9 @@
 //! Computes p(σ), and μ along it (Sec. 8, Figs. 11, 12 and 15), and gaps that close by themselves.
 
-use super::basics::{expect_known, largest, one_row};
+use super::basics::*;
 use super::law::law;
-use crate::experiments::prelude::*;
-use crate::params::{self, Grid, Profile, VERTICES};
-use SampleSpace::{FiveClasses, Simple};
 use impact_chain::rise::ONSET;
-use impact_circuits::distribution::{Law, SampleSpace};
 use impact_circuits::impact_probability::ImpactProbability;
-use impact_circuits::jump::{p_crit, p_jump};
-use impact_numerics::roots;
-use rayon::prelude::*;
 use std::f64::consts::SQRT_2;
 
 /// σ of the random starts whose overlap is given.
