@@ -8,7 +8,7 @@ use std::ops::Range;
 /// Gaps side by side. Four, whatever the processor has: nothing depends on its width.
 pub const WIDTH: usize = 4;
 
-/// Rows of [`Slot::rows`], a gap in each column: the amplitudes of cos ωt, sin ωt, cos Ωt, sin Ωt.
+/// Rows of [`Columns::rows`]: the amplitudes of cos ωt, sin ωt, cos Ωt and sin Ωt.
 pub const A: usize = 0;
 pub const B: usize = 1;
 pub const C: usize = 2;
