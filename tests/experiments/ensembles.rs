@@ -117,8 +117,6 @@ fn the_mode_jumps_where_it_was_measured_elsewhere() {
     let (place, peak) = (all_gaps.sigma.unwrap(), all_gaps.peak.unwrap());
     assert!(place.error < 3e-3, "{place:?}");
     assert!((place.value - 0.118).abs() < 4.0 * place.error, "{place:?}");
-    assert!(
-        peak.value > 20.0 && peak.interval[1] < 90.0,
-        "a step of a tenth of all gaps: {peak:?}"
-    );
+    // A step of a tenth of all gaps.
+    assert!(peak.value > 20.0 && peak.interval[1] < 90.0, "{peak:?}");
 }

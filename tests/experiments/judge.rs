@@ -1,5 +1,4 @@
-//! Runs `scenes/judge.py`, which shares its rules with [`Case::judge`] and no code: both judge the
-//! same impacts, and the program that its README shows is run.
+//! Runs `scenes/judge.py`, which judges as [`Case::judge`] does and shares no code with it.
 
 use impact_chain::Impact;
 use impact_paper::experiments::accuracy::case::{Case, Expected, Outcome, scenes};

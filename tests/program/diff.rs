@@ -8,23 +8,12 @@ use std::process::Command;
 /// Some files of the committed report twice, as `a` and as `b`.
 fn twice() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
-    for name in ["a", "b"] {
-        for path in ["values.json", "ledger.json", "report.md", "data/fig07.csv", "data/fig12.csv"]
-        {
-            let to = folder.path().join(name).join(path);
-            fs::create_dir_all(to.parent().unwrap()).unwrap();
-            let from = Path::new(env!("CARGO_MANIFEST_DIR")).join("paper").join(path);
-            fs::write(to, fs::read(from).unwrap()).unwrap();
-        }
-    }
+    let paths = ["values.json", "ledger.json", "report.md", "data/fig07.csv", "data/fig12.csv"];
+    let committed = Path::new(env!("CARGO_MANIFEST_DIR")).join("paper");
+    let files = paths.map(|path| (path.to_string(), fs::read(committed.join(path)).unwrap()));
+    let files = files.into();
+    ["a", "b"].iter().for_each(|name| put(&folder.path().join(name), &files));
     folder
-}
-
-fn edit(path: &Path, from: &str, to: &str) {
-    let before = fs::read_to_string(path).unwrap();
-    let after = before.replacen(from, to, 1);
-    assert_ne!(before, after, "{from}");
-    fs::write(path, after).unwrap();
 }
 
 /// Another number, verdict and datum, a lost file and a new one.
@@ -54,7 +43,9 @@ fn changed() -> tempfile::TempDir {
     claim["verdict"] = "differs".into();
     claim["tolerance"] = "± 0.0001 | more".into();
     fs::write(changed("ledger.json"), format!("{ledger:#}\n")).unwrap();
-    edit(&changed("data/fig12.csv"), "25)\",0.021,1\n", "25)\",0.021,0.75\n");
+    let data = fs::read_to_string(changed("data/fig12.csv")).unwrap();
+    let data = data.replacen("25)\",0.021,1\n", "25)\",0.021,0.75\n", 1);
+    fs::write(changed("data/fig12.csv"), data).unwrap();
     fs::remove_file(changed("data/fig07.csv")).unwrap();
     fs::write(changed("data/new.csv"), "a\n1\n").unwrap();
     fs::write(changed("report.html"), "built beside").unwrap();

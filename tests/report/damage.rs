@@ -1,5 +1,4 @@
-//! Damages a valid text for each reader of text from outside, in a seeded way. No reader panics or
-//! hangs, and each fault is reported in one line.
+//! Damages a text for each reader: none panics or hangs, and each fault is one line.
 
 use super::QUICK;
 use impact_chain::Scenario;

@@ -1,4 +1,4 @@
-//! Makes the report in memory, and tests it and what it is made of.
+//! Tests the report that the program made, and what it is made of.
 
 mod damage;
 mod documents;
@@ -10,14 +10,13 @@ mod picture;
 mod prose;
 mod structure;
 
-use impact_paper::claims::{self, Published};
-use impact_paper::contents;
-use impact_paper::experiments::{ALL, AnyExperiment, Progress, Results, Session, Store};
+use impact_paper::claims::Published;
+use impact_paper::experiments::{ALL, Progress, Results, Session, Store};
 use impact_paper::params::Profile;
 use literate::Paper;
 use literate::figures::Figure;
 use literate::prose::Templates;
-use literate::report::{Document, Files, Input, Registry, assemble};
+use literate::report::Registry;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::LazyLock;
@@ -27,52 +26,49 @@ struct Quick {
     templates: Templates,
     published: Published,
     figures: Vec<Figure>,
-    report: Files,
-    /// The same as it is written into a folder of target/.
-    below: Files,
     results: Results,
     values: Registry,
 }
 
-/// Results that the program saved, of these experiments, with the session that read them.
-fn results<'a>(paper: &'a Paper, needs: &[&'static dyn AnyExperiment]) -> (Session<'a>, Results) {
+/// Results that the program saved, with the session that read them.
+fn results(paper: &Paper) -> (Session<'_>, Results) {
     let saved = tempfile::tempdir().unwrap();
     crate::put(saved.path(), &crate::QUICK.results);
     let (store, quiet) = (Store::open(saved.path()), Progress::silent());
     let session = paper.session(None, Profile::Quick, store, quiet).unwrap();
-    let results = paper.results(needs, &session).unwrap();
+    let results = paper.results(ALL, &session).unwrap();
     (session, results)
 }
 
 impl Quick {
     /// Results once more, to be changed.
-    fn results_again(&self, needs: &[&'static dyn AnyExperiment]) -> Results {
-        results(&self.paper, needs).1
+    fn results_again(&self) -> Results {
+        results(&self.paper).1
     }
 
-    fn markdown(&self, document: &Document) -> &str {
-        std::str::from_utf8(&self.report[document.markdown]).unwrap()
+    /// A file of the report.
+    fn text(&self, name: &str) -> &'static str {
+        std::str::from_utf8(&crate::QUICK.below[name]).unwrap()
     }
 
-    /// The prose of a document before it is filled.
-    fn prose(&self, document: &Document) -> String {
-        let texts =
-            document.files(&self.templates).into_iter().map(|path| self.templates.text(path));
-        texts.map(Result::unwrap).collect::<Vec<_>>().join("\n\n")
+    /// The prose of all documents before it is filled.
+    fn all_prose(&self) -> String {
+        let documents = self.paper.edition.documents.iter();
+        let paths = documents.flat_map(|document| document.files(&self.templates));
+        paths.map(|path| self.templates.text(path).unwrap().to_owned() + "\n\n").collect()
     }
 }
 
-/// Links and places of each file.
-type Links = BTreeMap<String, (Vec<String>, Vec<String>)>;
-
-/// Follows the links of files in a report that is written into paper/, into a folder of target/,
-/// and where no checkout is; so many at least lead within a file, and from one to another.
-fn links_land(files: impl Fn(&Files) -> Links, least: usize, across: usize) {
-    let alone = &crate::QUICK.report;
-    for (report, top) in [(&QUICK.report, "../"), (&QUICK.below, "../../"), (alone, "none")] {
-        let files = files(report);
+/// Follows the links of files in a report that is written into a folder of target/, and where no
+/// checkout is; so many at least lead within a file, and from one to another. `read` returns the
+/// links and places of a text.
+fn links_land(names: Vec<&str>, read: fn(&str) -> [Vec<String>; 2], least: usize, across: usize) {
+    let made = &crate::QUICK;
+    for (report, top) in [(&made.below, "../../"), (&made.report, "none")] {
+        let text = |name: &str| std::str::from_utf8(&report[name]).unwrap();
+        let files: BTreeMap<&str, _> = names.iter().map(|name| (*name, read(text(name)))).collect();
         let (mut inside, mut outside, mut up) = (0, 0, 0);
-        for (name, (links, places)) in &files {
+        for (name, [links, places]) in &files {
             let distinct: BTreeSet<_> = places.iter().collect();
             assert_eq!(distinct.len(), places.len(), "{name}: a place stands twice");
             for link in links.iter().filter(|link| !link.contains("://")) {
@@ -85,9 +81,9 @@ fn links_land(files: impl Fn(&Files) -> Links, least: usize, across: usize) {
                 let to = if file.is_empty() { name } else { file };
                 assert!(report.contains_key(to) || to == "data", "{name}: no {link}");
                 if !id.is_empty() {
-                    inside += usize::from(to == name);
-                    outside += usize::from(to != name);
-                    assert!(files[to].1.iter().any(|place| place == id), "{name}: no {link}");
+                    inside += usize::from(to == *name);
+                    outside += usize::from(to != *name);
+                    assert!(files[to][1].iter().any(|place| place == id), "{name}: no {link}");
                 }
             }
         }
@@ -98,39 +94,10 @@ fn links_land(files: impl Fn(&Files) -> Links, least: usize, across: usize) {
 
 static QUICK: LazyLock<Quick> = LazyLock::new(|| {
     let paper = impact_paper::paper();
-    let (session, results) = results(&paper, ALL);
+    let (session, results) = results(&paper);
     let published = paper.published(&session).unwrap();
-    let mut claims = claims::judge_all(&published, &claims::rules(), &results).unwrap();
-    claims.retain(|check| check.kind.is_printed());
     let values = paper.registry(&results, &published).unwrap();
-    let rows = contents::rows(&results, &claims).unwrap();
-    let figures: Vec<_> =
-        paper.figures.iter().map(|figure| figure.figure(&results).unwrap()).collect();
-    let made = |top| {
-        let input = Input {
-            templates: &session.templates,
-            values: &values,
-            rows: &rows,
-            claims: &claims,
-            figures: &figures,
-            lab: Some(""),
-            top,
-            edition: &paper.edition,
-            project: &paper.project,
-            experiments: &paper.experiments,
-        };
-        assemble(&input).unwrap_or_else(|error| panic!("{error}"))
-    };
-    let [report, below] = [Some("../"), Some("../../")].map(made);
+    let figures = paper.figures.iter().map(|figure| figure.figure(&results).unwrap()).collect();
     let templates = session.templates.clone();
-    Quick {
-        paper: impact_paper::paper(),
-        templates,
-        published,
-        figures,
-        report,
-        below,
-        results,
-        values,
-    }
+    Quick { paper: impact_paper::paper(), templates, published, figures, results, values }
 });

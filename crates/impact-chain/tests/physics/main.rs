@@ -1,5 +1,4 @@
-//! Tests the engine: against a second simulator of higher precision, by laws that hold for any
-//! arithmetic, and in scenes of contact that are known by mechanics.
+//! Tests the engine: by a second simulator, by laws of any arithmetic, and by mechanics.
 
 mod abreast;
 mod certified;
@@ -22,6 +21,11 @@ fn drawn(chain: &Chain, sigma: f64, stream: &str, index: u64) -> Scenario {
 fn given(free: Vec<[f64; 2]>, forcing: Vec<[f64; 2]>) -> Scenario {
     let initial = Initial::Free(free);
     Scenario { initial, forcing, ..drawn(&Chain::default(), 0.0, "given", 0) }
+}
+
+/// A chain without forcing, from given free parts.
+fn unforced(free: &[[f64; 2]], restitution: f64) -> Scenario {
+    Scenario { restitution, ..given(free.to_vec(), vec![[0.0; 2]; free.len()]) }
 }
 
 fn run(engine: &mut Engine, until: f64) -> Vec<Impact> {
