@@ -53,7 +53,7 @@ fn fly(scenario: &Scenario, start: &State, until: f64, slow: f64) -> (Vec<Impact
         let (time, closing_speed) = (hit.time.hi, hit.closing_speed.hi);
         impacts.push(Impact { time, gap: hit.gap, closing_speed });
     }
-    let state = state(scenario, &chain, chain.time());
+    let state = state(scenario, &chain, chain.time);
     (impacts, state)
 }
 

@@ -5,20 +5,14 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-/// Some files of the committed report twice, as `a` and as `b`.
-fn twice() -> tempfile::TempDir {
+/// Some files of the committed report twice, as `a` and as `b`, which has another number, verdict
+/// and datum, lacks a file and has a new one.
+fn changed() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     let paths = ["values.json", "ledger.json", "report.md", "data/fig07.csv", "data/fig12.csv"];
-    let committed = Path::new(env!("CARGO_MANIFEST_DIR")).join("paper");
-    let files = paths.map(|path| (path.to_string(), fs::read(committed.join(path)).unwrap()));
-    let files = files.into();
+    let committed = |path: &str| fs::read(Path::new("paper").join(path)).unwrap();
+    let files = paths.map(|path| (path.to_string(), committed(path))).into();
     ["a", "b"].iter().for_each(|name| put(&folder.path().join(name), &files));
-    folder
-}
-
-/// Another number, verdict and datum, a lost file and a new one.
-fn changed() -> tempfile::TempDir {
-    let folder = twice();
     let changed = |path: &str| folder.path().join("b").join(path);
     let json = |path: &str| -> serde_json::Value {
         serde_json::from_str(&fs::read_to_string(changed(path)).unwrap()).unwrap()
@@ -73,6 +67,8 @@ fn number_verdict_and_files_are_told_in_each_form() {
         assert!(differences.contains(line), "{line}: {differences}");
     }
     assert!(!differences.contains("report.html"), "{differences}");
+    fs::write(here.join("b/values.json"), "{\"a\": ").unwrap();
+    refused(here, "diff a b", &["b: values.json"]);
 }
 
 #[test]
@@ -103,11 +99,4 @@ fn revisions_of_git_are_compared() {
     }
     let (code, _, note) = outcome(program(&sub, "diff v1 paper").env("PATH", ""));
     assert!(code == 2 && note.contains("git: ") && note.lines().count() == 1, "{note}");
-}
-
-#[test]
-fn what_is_no_report_gets_one_line() {
-    let folder = twice();
-    fs::write(folder.path().join("b/values.json"), "{\"a\": ").unwrap();
-    refused(folder.path(), "diff a b", &["b: values.json"]);
 }

@@ -44,13 +44,9 @@ fn outcome(command: &mut Command) -> (i32, String, String) {
     ended_with(&command.output().unwrap())
 }
 
-fn run(folder: &Path, arguments: &str) -> (i32, String, String) {
-    outcome(&mut program(folder, arguments))
-}
-
 /// The standard output and error of a run with this exit code and these words on stderr.
 fn ends(folder: &Path, arguments: &str, code: i32, words: &[&str]) -> [String; 2] {
-    let (ended, out, note) = run(folder, arguments);
+    let (ended, out, note) = outcome(&mut program(folder, arguments));
     assert_eq!(ended, code, "{arguments}: {out}{note}");
     for word in words {
         assert!(note.contains(word), "{arguments}: {word:?} is not in {note}");

@@ -1,8 +1,8 @@
 //! Tests that saved results are never stale or half, and that shared work has the same bytes.
 
 use crate::{
-    EXPERIMENTS, Files, PROGRAM, QUICK, ended_with, ends, files, forged, program, put, run, sha256,
-    shard,
+    EXPERIMENTS, Files, PROGRAM, QUICK, ended_with, ends, files, forged, outcome, program, put,
+    sha256, shard,
 };
 use std::collections::BTreeSet;
 use std::fs;
@@ -26,7 +26,7 @@ fn joined(folder: &Path) -> String {
 /// What `paper --dry-run` says of results, a line for each experiment that would be run.
 fn stale(folder: &Path, results: &str) -> String {
     let dry = format!("paper --profile quick --dry-run --results {results}");
-    let (code, text, _) = run(folder, &dry);
+    let (code, text, _) = outcome(&mut program(folder, &dry));
     assert_eq!(code, i32::from(!text.is_empty()), "{text}");
     text
 }

@@ -252,25 +252,23 @@ fn the_method_that_is_named_is_run() {
     }
 }
 
+/// Ties, contact, rounding where a run is stopped, and rounding near resonance.
 #[test]
-fn what_was_done_with_ties_is_said() {
-    let folder = folder(r#"{"forcing":[[0.9,0.8],[0,0],[-0.9,-0.8]]}"#);
-    let [_, note] = ends(folder.path(), "trace s.json --until 12", 0, &[": 3 of 15; "]);
-    assert_eq!(note.lines().count(), 1, "{note}");
-}
-
-#[test]
-fn the_truth_ends_where_a_gap_comes_to_rest() {
-    let folder = folder(r#"{"restitution":0.2,"forcing":[[5.88,-4.94]]}"#);
-    let says = "does not support contact; use another method";
-    ends(folder.path(), "trace s.json --until 100 --method truth", 2, &[says]);
-}
-
-#[test]
-fn a_run_that_is_stopped_tells_its_rounding() {
+fn standard_error_says_what_a_run_did() {
+    let near = r#"{"forcing":[[0.9,-0.4]],"forcing_frequency":1.0000001}"#;
     // A fast mass between walls has more impacts in 1/w than a run may have.
     let fast = r#"{"natural_frequency":0.001,"forcing_frequency":1000,"restitution":1,"forcing":[[0,1e6]]}"#;
-    let folder = folder(fast);
-    let [out, note] = ends(folder.path(), "trace s.json --until 1e4", 1, &["may move each impact"]);
-    assert!(out.lines().count() > 1000 && note.lines().count() == 2, "{note}");
+    let tied = r#"{"forcing":[[0.9,0.8],[0,0],[-0.9,-0.8]]}"#;
+    let stuck = r#"{"restitution":0.2,"forcing":[[5.88,-4.94]]}"#;
+    for (scenario, run, code, note, lines, rows) in [
+        (tied, "--until 12", 0, ": 3 of 15; ", 1, 15),
+        (stuck, "--until 100 --method truth", 2, "does not support contact; use another", 1, 0),
+        (fast, "--until 1e4", 1, "may move each impact", 2, 1000),
+        (near, "--until 20", 0, "closing speed v by 2.9e-7/v", 1, 2),
+    ] {
+        let folder = folder(scenario);
+        let [out, said] = ends(folder.path(), &format!("trace s.json {run}"), code, &[note]);
+        assert_eq!(said.lines().count(), lines, "{said}");
+        assert!(out.lines().count() > rows || rows == 0, "{scenario}: {out}");
+    }
 }

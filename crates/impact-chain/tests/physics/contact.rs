@@ -1,7 +1,7 @@
 //! Tests contact of pairs and clusters, and gaps that close at one instant. Ω = 2 and cosine
 //! forcing only, so a mass under F cos Ωt is at j d + a − F/3 at t = 0, and forces are known.
 
-use crate::{drawn, given, run};
+use crate::{drawn, given, ran, run};
 use impact_chain::{Boundary, Chain, End, Engine, Event, Impact, Initial, Scenario, State};
 use std::collections::BTreeSet;
 use std::ops::ControlFlow::{Break, Continue};
@@ -15,18 +15,6 @@ fn scene(masses: &[(f64, f64)], forces: &[f64], restitution: f64) -> Scenario {
         .collect();
     let forcing = forces.iter().map(|f| [*f, 0.0]).collect();
     Scenario { forcing_frequency: 2.0, restitution, ..given(free, forcing) }
-}
-
-/// Runs a scene, and returns its impacts.
-fn ran(
-    masses: &[(f64, f64)],
-    forces: &[f64],
-    restitution: f64,
-    until: f64,
-) -> (Engine, Vec<Impact>) {
-    let mut engine = Engine::new(&scene(masses, forces, restitution)).unwrap();
-    let impacts = run(&mut engine, until);
-    (engine, impacts)
 }
 
 /// The gaps in contact at a time, all with a force that presses.
@@ -97,7 +85,7 @@ fn three_masses_collapse_in_a_geometric_series() {
     let masses = [(2.0 - 1e-3, 1.0), (2.0, 0.0), (2.0 + 2e-3, -1.0)];
     for r in [0.0, 0.02, 0.05] {
         // Pressed together, so that contact follows; the middle one between the others.
-        let (engine, impacts) = ran(&masses, &[9.0, 0.0, -9.0], r, 0.1);
+        let (engine, impacts) = ran(&scene(&masses, &[9.0, 0.0, -9.0], r), 0.1);
         assert!(impacts.len() < 80, "r = {r}: a collapse is cut short, {}", impacts.len());
         let contacts = engine.contacts(0.1).unwrap();
         assert_eq!(contacts.iter().map(|c| c.0).collect::<Vec<_>>(), [1, 2], "r = {r}");
@@ -126,7 +114,7 @@ fn three_masses_collapse_in_a_geometric_series() {
         }
     }
     // Above 7 − 4√3 and not pressed, the three part.
-    let (engine, impacts) = ran(&masses, &[0.0; 3], 0.2, 0.1);
+    let (engine, impacts) = ran(&scene(&masses, &[0.0; 3], 0.2), 0.1);
     assert!((2..8).contains(&impacts.len()), "{impacts:?}");
     assert_eq!(engine.counters().contact_phases, 0);
 }
@@ -136,7 +124,7 @@ fn without_restitution_a_pair_sticks_only_while_it_is_pressed() {
     // d + ΔF > 0 at the impact: they part at once. < 0: they stay together.
     for (force, sticks) in [(0.0, false), (0.4, false), (0.6, true), (3.0, true)] {
         let masses = [(1.5 - 1e-3, 0.5), (1.5 + 1e-3, -0.5)];
-        let (engine, impacts) = ran(&masses, &[force, -force], 0.0, 0.01);
+        let (engine, impacts) = ran(&scene(&masses, &[force, -force], 0.0), 0.01);
         assert_eq!(impacts.len(), 1, "force {force}");
         assert_eq!(engine.contacts(0.01).unwrap().len(), usize::from(sticks), "force {force}");
         // A contact that a force would end as soon as it begins must not begin.
@@ -160,8 +148,7 @@ fn gaps_that_are_released_together_part_without_a_crawl() {
             initial: Initial::Rest,
             ..scene(&[(1.0, 0.0), (2.0, 0.0)], &[3.0, -3.0], 0.0)
         };
-        let mut engine = Engine::new(&scenario).unwrap();
-        let impacts = run(&mut engine, 30.0);
+        let (engine, impacts) = ran(&scenario, 30.0);
         // The masses meet and stick, part, reach both walls at once and stick there, for ever.
         let hard: Vec<usize> =
             impacts.iter().filter(|impact| impact.closing_speed > 1.0).map(|i| i.gap).collect();
@@ -179,7 +166,7 @@ fn a_released_gap_is_not_shut_by_rounding() {
         for i in 0..60 {
             let q = 2.0 + 0.01 * f64::from(i);
             let forces = [pressing + q, -pressing, -q];
-            let (engine, _) = ran(&[(2.0, 0.0); 3], &forces, 0.8, 0.7);
+            let (engine, _) = ran(&scene(&[(2.0, 0.0); 3], &forces, 0.8), 0.7);
             opened += usize::from(engine.contacts(0.7).unwrap().iter().all(|c| c.0 != 2));
             assert!(engine.counters().searches < 1000, "{forces:?}: {:?}", engine.counters());
         }
@@ -229,10 +216,9 @@ fn draw(masses: usize, sigma: f64, index: u64) -> Scenario {
 /// A drawn chain made symmetric; an odd one has a mass at rest in the middle.
 fn mirror(masses: usize, sigma: f64, index: u64) -> Scenario {
     let mut scenario = draw(masses, sigma, index);
-    for j in 0..masses.div_ceil(2) {
-        let is_middle = 2 * j + 1 == masses;
-        let mirrored = scenario.forcing[j].map(|x| -x);
-        scenario.forcing[masses - 1 - j] = if is_middle { [0.0; 2] } else { mirrored };
+    for j in masses / 2..masses {
+        let twin = scenario.forcing[masses - 1 - j];
+        scenario.forcing[j] = if 2 * j + 1 == masses { [0.0; 2] } else { twin.map(|x| -x) };
     }
     scenario
 }
@@ -285,7 +271,7 @@ fn velocities_after_a_collective_hit_are_those_of_the_law() {
             for r in [0.0, 0.1, 0.5, 0.9, 1.0] {
                 let mut v: Vec<f64> = random.iter().map(|pair| pair[0]).collect();
                 let masses: Vec<(f64, f64)> = v.iter().map(|&v| (0.0, v)).collect();
-                let (engine, impacts) = ran(&masses, &vec![0.0; n], r, 1e-11);
+                let (engine, impacts) = ran(&scene(&masses, &vec![0.0; n], r), 1e-11);
                 let expected = if r == 0.0 {
                     inelastic(&v)
                 } else {
@@ -325,8 +311,7 @@ fn a_collective_hit_takes_a_small_power_of_the_masses() {
 #[test]
 fn an_even_mirror_image_keeps_its_symmetry() {
     for (masses, index) in [(21, 1), (20, 3)] {
-        let mut engine = Engine::new(&mirror(masses, 0.3, index)).unwrap();
-        let impacts = run(&mut engine, 300.0);
+        let (engine, impacts) = ran(&mirror(masses, 0.3, index), 300.0);
         assert!(impacts.len() > 300, "{}", impacts.len());
         let x = engine.state(300.0).unwrap().positions;
         let off = |j: usize| (x[j] + x[masses - 1 - j] - (masses + 1) as f64).abs();

@@ -13,21 +13,6 @@ pub struct Hit {
     pub closing_speed: Dd,
 }
 
-/// The result of the search of a gap: no root before the time, and whether one at it.
-#[derive(Clone, Debug)]
-struct Next {
-    time: Dd,
-    is_root: bool,
-}
-
-impl Next {
-    const NEVER: Next = Next::no_root_until(Dd { hi: f64::INFINITY, lo: 0.0 });
-
-    const fn no_root_until(time: Dd) -> Next {
-        Next { time, is_root: false }
-    }
-}
-
 #[derive(Clone, Debug)]
 pub struct Reference {
     spacing: Dd,
@@ -37,9 +22,10 @@ pub struct Reference {
     ring: bool,
     /// Free amplitudes (a, b) of each mass, then its forced ones, as the frequencies.
     masses: Vec<Vec<[Dd; 2]>>,
-    /// One entry a gap of the engine's numbering; on a ring entry 0 stays idle.
-    next: Vec<Next>,
-    time: Dd,
+    /// Time until which each gap has no root, and whether it has one then; on a ring gap 0 is none.
+    next: Vec<(Dd, bool)>,
+    /// The time of the last impact.
+    pub time: Dd,
 }
 
 /// How far a search looks ahead: most gaps are disturbed by a neighbour before.
@@ -75,10 +61,7 @@ impl Reference {
             })
             .collect();
         let ring = scenario.boundary == Boundary::Ring;
-        let mut next = vec![Next::no_root_until(Dd::ZERO); masses.len() + 1];
-        if ring {
-            next[0] = Next::NEVER;
-        }
+        let next = vec![(Dd::ZERO, false); masses.len() + 1];
         Reference {
             spacing: Dd::from(scenario.spacing),
             restitution: Dd::from(scenario.restitution),
@@ -103,7 +86,7 @@ impl Reference {
             let rate = (Dd::from(start.velocities[j]) - v) / w;
             chain.masses[j][0] = [u * c - rate * s, u * s + rate * c];
         }
-        chain.next.fill(Next::no_root_until(t));
+        chain.next.fill((t, false));
         chain.time = t;
         chain
     }
@@ -145,33 +128,24 @@ impl Reference {
         self.masses.iter().map(motion).collect()
     }
 
-    pub fn time(&self) -> Dd {
-        self.time
-    }
-
     /// The next impact up to a time, which is then carried out; none if there is none.
     pub fn step(&mut self, until: Dd) -> Result<Option<Hit>, String> {
         loop {
-            let earlier =
-                |a: usize, b: usize| if self.next[b].time < self.next[a].time { b } else { a };
-            let gap = (0..self.next.len()).fold(0, earlier);
-            let Next { time, is_root } = self.next[gap];
+            let gaps = usize::from(self.ring)..self.next.len();
+            let earlier = |a: usize, b: usize| if self.next[b].0 < self.next[a].0 { b } else { a };
+            let gap = gaps.clone().fold(gaps.start, earlier);
+            let (time, is_root) = self.next[gap];
             if time > until || !is_root && time == until {
                 return Ok(None);
             }
             if is_root {
                 return Ok(Some(self.impact(gap, time)));
             }
-            let shape = self.gap(gap);
             let ahead = time + Dd::from(AHEAD);
             let ahead = if ahead < until { ahead } else { until };
-            self.next[gap] = if shape.never_closes() {
-                Next::NEVER
-            } else {
-                let root = shape.first_root(time, ahead).map_err(|e| format!("gap {gap}: {e}"))?;
-                let is_root = root.is_some();
-                Next { time: root.unwrap_or(ahead), is_root }
-            };
+            let root = self.gap(gap).first_root(time, ahead);
+            let root = root.map_err(|error| format!("gap {gap}: {error}"))?;
+            self.next[gap] = (root.unwrap_or(ahead), root.is_some());
         }
     }
 
@@ -199,10 +173,9 @@ impl Reference {
             self.masses[mass][0] = [a - rate * s, b + rate * c];
         }
         self.time = time;
-        let idle = usize::from(self.ring);
-        for other in idle..self.next.len() {
+        for other in 0..self.next.len() {
             if self.sides(other).iter().flatten().any(|mass| sides.contains(&Some(*mass))) {
-                self.next[other] = Next::no_root_until(time);
+                self.next[other] = (time, false);
             }
         }
         Hit { time, gap, closing_speed: -closing }

@@ -49,11 +49,6 @@ impl Gap {
         self.bounds()[1]
     }
 
-    /// Returns whether R1 + R2 < d by a clear margin, so that the gap never closes.
-    pub fn never_closes(&self) -> bool {
-        self.bounds()[0] * (1.0 + 1e-12) < self.spacing.hi
-    }
-
     /// The first time in (from, to] at which Δ falls to zero from above.
     ///
     /// A gap that is closed at `from` (to a few roundings) counts as just parted when it opens,
