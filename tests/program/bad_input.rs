@@ -1,14 +1,12 @@
 //! Gives the program what people get wrong: one line names the field and the remedy.
 
-use crate::{SCENARIO, program};
+use crate::{SCENARIO, folder, program};
 use std::fs;
 use std::process::Stdio;
 
 /// Holds the program to refuse a scenario with one line that has all of `words`.
 fn refused(scenario: impl AsRef<[u8]>, words: &[&str]) {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("s.json"), scenario).unwrap();
-    crate::refused(folder.path(), "trace s.json --until 5", words);
+    crate::refused(folder(scenario).path(), "trace s.json --until 5", words);
 }
 
 fn with(field: &str) -> String {
@@ -132,9 +130,8 @@ eval p-crit --p 0.1 => --p:; leave it out";
 
 #[test]
 fn options_out_of_range() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder(SCENARIO);
     let here = folder.path();
-    fs::write(here.join("s.json"), SCENARIO).unwrap();
     fs::write(here.join("ring.json"), with(r#""boundary":"ring""#)).unwrap();
     fs::write(here.join("file"), "").unwrap();
     fs::create_dir(here.join("empty")).unwrap();
@@ -156,8 +153,7 @@ fn options_out_of_range() {
 #[cfg(target_os = "linux")]
 #[test]
 fn outputs_that_cannot_be_written() {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("s.json"), SCENARIO).unwrap();
+    let folder = folder(SCENARIO);
     for arguments in ["trace s.json --until 1e5", "eval p-crit"] {
         let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
         let output = program(folder.path(), arguments).stdout(full).output().unwrap();

@@ -34,6 +34,13 @@ fn program(folder: &Path, arguments: &str) -> Command {
     command
 }
 
+/// A folder with a scenario, s.json.
+fn folder(scenario: impl AsRef<[u8]>) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("s.json"), scenario).unwrap();
+    folder
+}
+
 /// Exit code, stdout and stderr; −1 for a program that a signal ended.
 fn ended_with(output: &Output) -> (i32, String, String) {
     let utf8 = |bytes: &Vec<u8>| String::from_utf8_lossy(bytes).into_owned();

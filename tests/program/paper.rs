@@ -86,8 +86,7 @@ fn ended(mut child: Child) -> [String; 2] {
 #[cfg(unix)]
 #[test]
 fn signals_end_the_work_and_leave_nothing_half_written() {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("s.json"), SCENARIO).unwrap();
+    let folder = crate::folder(SCENARIO);
     let paper = "paper --figure 3 --out paper --results r --threads 1 --templates @";
     let (child, line) = started(folder.path(), paper);
     assert!(line.starts_with("1 experiment to run, about "), "{line}");

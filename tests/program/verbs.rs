@@ -1,6 +1,6 @@
 //! Runs the verbs that this paper adds to the program: `eval`, `sweep` and `trace`.
 
-use crate::{SCENARIO, answer, ends, program, refused};
+use crate::{SCENARIO, answer, ends, folder, program, refused};
 use impact_circuits::distribution::{Law, SampleSpace};
 use impact_circuits::impact_probability::ImpactProbability;
 use impact_circuits::{counting, jump};
@@ -147,12 +147,6 @@ fn overlapping_starts_are_rejected_counted_and_named() {
     };
     assert!(rejected(&random) > 12, "{random}");
     assert_eq!(rejected(&table("--sigma 0.3")), 0);
-}
-
-fn folder(scenario: &str) -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("s.json"), scenario).unwrap();
-    folder
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Reads the pages by an XML parser, with the results of the quick profile.
 
 use super::QUICK;
+use literate::report;
 use roxmltree::{Document, Node, ParsingOptions};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,9 +10,9 @@ fn parsed(text: &str) -> Document<'_> {
     Document::parse_with_options(text, options).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn pages() -> impl Iterator<Item = (&'static str, Document<'static>)> {
+fn pages() -> impl Iterator<Item = (&'static report::Document, Document<'static>)> {
     let documents = QUICK.paper.edition.documents.iter();
-    documents.map(|document| (document.page, parsed(QUICK.text(document.page))))
+    documents.map(|document| (document, parsed(QUICK.text(document.page))))
 }
 
 /// A card: title, first line, and which rows it has.
@@ -49,16 +50,16 @@ fn every_link_lands_wherever_the_report_is_written() {
 fn every_value_has_one_card() {
     let (rows, cards) = cards(QUICK.text("cards.js"));
     let (mut shown, mut asked) = (0, BTreeSet::new());
-    for (name, page) in pages() {
+    for (document, page) in pages() {
         for value in page.descendants().filter(|node| node.attribute("data-card").is_some()) {
             shown += 1;
             asked.insert(value.attribute("data-card").unwrap().to_string());
-            assert!(!words(value).trim().is_empty(), "{name}");
+            assert!(!words(value).trim().is_empty(), "{}", document.page);
             assert!(value.ancestors().all(|outer| outer.tag_name().name() != "math"));
         }
     }
-    let have: BTreeSet<String> = cards.keys().cloned().collect();
-    assert_eq!(asked, have, "a card without a number, or a number without its card");
+    // A card without a number, or a number without its card.
+    assert_eq!(asked, cards.keys().cloned().collect());
     assert!(shown > 500, "{shown}");
     assert_eq!(rows.iter().collect::<BTreeSet<_>>().len(), rows.len(), "a row twice");
     // A path of an item that leads to no file was renamed or misspelt.
@@ -97,14 +98,13 @@ fn no_colour_is_fixed() {
 
 #[test]
 fn every_page_says_how_to_cite_it() {
-    for (name, page) in pages() {
+    for (document, page) in pages() {
         let title = words(elements(&page, "title")[0]);
         let boxes = elements(&page, "details").into_iter();
         let boxes: Vec<_> = boxes.filter(|node| node.attribute("class") == Some("cite")).collect();
-        let [cite] = boxes[..] else { panic!("{name}: {} boxes", boxes.len()) };
+        let [cite] = boxes[..] else { panic!("{} boxes", boxes.len()) };
         let entry = words(cite);
-        let here = QUICK.paper.edition.documents.iter().find(|of| of.page == name).unwrap();
-        assert!(entry.contains(&format!("@misc{{impactpaper2026{},", here.prose)), "{entry}");
+        assert!(entry.contains(&format!("@misc{{impactpaper2026{},", document.prose)), "{entry}");
         let authors: Vec<_> =
             QUICK.paper.edition.authors.iter().map(|(author, _)| *author).collect();
         assert!(authors.iter().all(|author| entry.contains(author)), "{entry}");
@@ -116,7 +116,7 @@ fn every_page_says_how_to_cite_it() {
         };
         assert_eq!(contents("citation_title"), [title.as_str()]);
         assert_eq!(contents("citation_author"), authors);
-        assert!(entry.contains(&format!("title  = {{{title}}}")), "{name}: {entry}");
+        assert!(entry.contains(&format!("title  = {{{title}}}")), "{entry}");
         assert!(entry.contains(concat!("impact-paper ", env!("CARGO_PKG_VERSION"))), "{entry}");
     }
 }

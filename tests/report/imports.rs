@@ -49,20 +49,14 @@ struct Modules {
 impl Modules {
     fn read(&mut self, path: &[String], file: &str, tokens: TokenStream) {
         let mut module = Module { file: file.into(), ..Module::default() };
-        self.read_within(path, tokens, true, &mut module);
+        self.collect(path, tokens, true, &mut module);
         let known = self.all.entry(path.to_vec()).or_default();
         module.imports.append(&mut known.imports);
         *known = module;
     }
 
     /// Reads the tokens of a module, or, not at its top, those between brackets.
-    fn read_within(
-        &mut self,
-        path: &[String],
-        tokens: TokenStream,
-        top: bool,
-        module: &mut Module,
-    ) {
+    fn collect(&mut self, path: &[String], tokens: TokenStream, top: bool, module: &mut Module) {
         let trees: Vec<TokenTree> = tokens.into_iter().collect();
         let (mut i, sign) = (0, |place: usize| word(&trees, place));
         while let Some(tree) = trees.get(i) {
@@ -88,7 +82,7 @@ impl Modules {
                     module.items.insert(name);
                 }
                 (_, TokenTree::Group(group), _) => {
-                    self.read_within(path, group.stream(), false, module);
+                    self.collect(path, group.stream(), false, module);
                 }
                 (name, TokenTree::Ident(_), _) => {
                     let mut whole = vec![name.to_string()];

@@ -20,8 +20,8 @@ fn the_report_has_every_equation_and_figure() {
         assert_eq!(markdown.matches(&format!("\\tag{{{number}}}")).count(), 1, "Eq. ({number})");
     }
     for name in figures::ALL.iter().map(|figure| figure.name) {
-        let number = name.trim_start_matches("fig").trim_start_matches('0').to_uppercase();
-        let number = number.replace("S0", "S");
+        let number =
+            name.trim_start_matches(['f', 'i', 'g', '0']).to_uppercase().replace("S0", "S");
         assert_eq!(markdown.matches(&format!("**Figure {number}.**")).count(), 1, "Fig. {number}");
     }
 }

@@ -43,12 +43,9 @@ fn windows(length: f64) -> Vec<Protocol> {
     (0..number).map(at).collect()
 }
 
-fn run(
-    chain: &Chain,
-    windows: &[Protocol],
-    until: f64,
-    scenarios: &[Scenario],
-) -> Vec<Option<Realisation>> {
+type Runs = Vec<Option<Realisation>>;
+
+fn run(chain: &Chain, windows: &[Protocol], until: f64, scenarios: &[Scenario]) -> Runs {
     Abreast::new(chain, windows, until).unwrap().run(scenarios, &|| false)
 }
 

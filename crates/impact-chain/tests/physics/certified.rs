@@ -5,6 +5,7 @@ use crate::{first, given};
 use impact_chain::rounding::TIME;
 use impact_chain::{Boundary, Chain, End, Engine, Event, Initial, Overtone, Scenario};
 use impact_numerics::random::{NormalPairs, Seed};
+use std::f64::consts::SQRT_2;
 use std::ops::ControlFlow::Continue;
 
 /// The closing speed is off by at most ε S (C′ max(ω, Ω) + C M₂/v), where M₂ = ω² R₁ +
@@ -42,8 +43,7 @@ fn bounds(start: &Reference, scenario: &Scenario, gap: usize, speed: f64) -> Opt
 
 fn hold(scenario: &Scenario, until: f64, tally: &mut Tally) {
     let start = Reference::new(scenario);
-    let mut chain = start.clone();
-    let Ok(theirs) = chain.step(Dd::from(until)) else { return };
+    let Ok(theirs) = start.clone().step(Dd::from(until)) else { return };
     let mut engine = Engine::new(scenario).unwrap();
     let ours = first(&mut engine, until);
     tally.evaluations += engine.counters().evaluations;
@@ -91,8 +91,7 @@ fn corner(index: u64) -> Option<Scenario> {
     };
     let n = [1, 1, 2, 3, 3, 5][pick(6)];
     let omega = [1.0, 1.0, 1.0, 1.3, 0.25][pick(5)];
-    let forcing = [std::f64::consts::SQRT_2, std::f64::consts::SQRT_2, 0.7, 2.0, 1.001, 6.3];
-    let forcing = forcing[pick(6)];
+    let forcing = [SQRT_2, SQRT_2, 0.7, 2.0, 1.001, 6.3][pick(6)];
     let restitution = [0.8, 0.2, 0.0, 1.0][pick(4)];
     let boundary = if n > 2 && pick(4) == 0 { Boundary::Ring } else { Boundary::Walls };
     let spacing = [1.0, 1.0, 0.5, 2.0][pick(4)];

@@ -16,11 +16,10 @@ fn chain(masses: usize, boundary: Boundary, sigma: f64, index: u64) -> Scenario 
     drawn(&chain, sigma * spacing * w * w, "methods", index)
 }
 
-fn trace(
-    method: &dyn Method,
-    scenario: &Scenario,
-    until: f64,
-) -> (Vec<Impact>, Result<Cost, Error>) {
+/// The impacts of a method up to its end or error.
+type Trace = (Vec<Impact>, Result<Cost, Error>);
+
+fn trace(method: &dyn Method, scenario: &Scenario, until: f64) -> Trace {
     let mut impacts = Vec::new();
     let task = Task { scenario, start: &State::from_scenario(scenario), until };
     let cost = method.run(task, &mut |impact| {
