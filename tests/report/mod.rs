@@ -11,7 +11,7 @@ mod prose;
 mod structure;
 
 use impact_paper::claims::Published;
-use impact_paper::experiments::{ALL, Progress, Results, Session, Store};
+use impact_paper::experiments::{ALL, AnyExperiment, Progress, Results, Session, Store};
 use impact_paper::params::Profile;
 use literate::Paper;
 use literate::figures::Figure;
@@ -30,20 +30,20 @@ struct Quick {
     values: Registry,
 }
 
-/// Results that the program saved, with the session that read them.
-fn results(paper: &Paper) -> (Session<'_>, Results) {
+/// Results that the program saved, of these experiments, with the session that read them.
+fn results<'a>(paper: &'a Paper, needs: &[&'static dyn AnyExperiment]) -> (Session<'a>, Results) {
     let saved = tempfile::tempdir().unwrap();
     crate::put(saved.path(), &crate::QUICK.results);
     let (store, quiet) = (Store::open(saved.path()), Progress::silent());
     let session = paper.session(None, Profile::Quick, store, quiet).unwrap();
-    let results = paper.results(ALL, &session).unwrap();
+    let results = paper.results(needs, &session).unwrap();
     (session, results)
 }
 
 impl Quick {
     /// Results once more, to be changed.
-    fn results_again(&self) -> Results {
-        results(&self.paper).1
+    fn results_again(&self, needs: &[&'static dyn AnyExperiment]) -> Results {
+        results(&self.paper, needs).1
     }
 
     /// A file of the report.
@@ -94,7 +94,7 @@ fn links_land(names: Vec<&str>, read: fn(&str) -> [Vec<String>; 2], least: usize
 
 static QUICK: LazyLock<Quick> = LazyLock::new(|| {
     let paper = impact_paper::paper();
-    let (session, results) = results(&paper);
+    let (session, results) = results(&paper, ALL);
     let published = paper.published(&session).unwrap();
     let values = paper.registry(&results, &published).unwrap();
     let figures = paper.figures.iter().map(|figure| figure.figure(&results).unwrap()).collect();
