@@ -41,21 +41,16 @@ fn beyond_the_rise_runs_are_fewer_and_shorter() {
     assert_eq!(cut.distinct[1..], vec![vec![None; 2]; 3]);
 }
 
-fn one(distinct: Option<u32>, impacts: u64, masses: u32) -> Counts {
-    Counts {
-        distinct: vec![vec![distinct]],
-        impacts: vec![vec![impacts]],
-        masses: vec![vec![masses]],
-        ..Counts::default()
-    }
-}
-
 #[test]
 fn where_many_starts_overlap_there_is_no_place_of_the_rise() {
-    let overlapping = |k| -> Counts {
-        let rejected = Counts { rejected: 1, ..one(None, 0, 0) };
-        (0..6).map(|_| one(Some(k), 1, 1)).chain([rejected]).collect()
+    let one = |distinct, rejected| Counts {
+        distinct: vec![vec![distinct]],
+        impacts: vec![vec![1]],
+        masses: vec![vec![1]],
+        rejected,
+        ..Counts::default()
     };
+    let overlapping = |k| (0..6).map(|_| one(Some(k), 0)).chain([one(None, 1)]).collect::<Counts>();
     let ensemble = Ensemble {
         chain: Chain { masses: 9, ..Chain::default() },
         sigmas: vec![0.1, 0.2],
@@ -117,8 +112,6 @@ fn the_mode_jumps_where_it_was_measured_elsewhere() {
     let (place, peak) = (all_gaps.sigma.unwrap(), all_gaps.peak.unwrap());
     assert!(place.error < 3e-3, "{place:?}");
     assert!((place.value - 0.118).abs() < 4.0 * place.error, "{place:?}");
-    assert!(
-        peak.value > 20.0 && peak.interval[1] < 90.0,
-        "a step of a tenth of all gaps: {peak:?}"
-    );
+    // A step of a tenth of all gaps.
+    assert!(peak.value > 20.0 && peak.interval[1] < 90.0, "{peak:?}");
 }

@@ -3,6 +3,7 @@
 
 use crate::reference::{Dd, Reference};
 use impact_chain::{Impact, Scenario, State};
+use impact_numerics::roots::bracket;
 use impact_paper::experiments::accuracy::case::{Case, Expected, Outcome, scenes};
 
 /// A chatter is over, and a collapse, when impacts are slower than this.
@@ -52,7 +53,7 @@ fn fly(scenario: &Scenario, start: &State, until: f64, slow: f64) -> (Vec<Impact
         let (time, closing_speed) = (hit.time.hi, hit.closing_speed.hi);
         impacts.push(Impact { time, gap: hit.gap, closing_speed });
     }
-    let state = state(scenario, &chain, chain.time());
+    let state = state(scenario, &chain, chain.time);
     (impacts, state)
 }
 
@@ -85,19 +86,11 @@ fn release(scenario: &Scenario, gap: usize, from: f64) -> f64 {
         }
         sum
     };
-    let (mut shut, mut open) = (from, from);
+    let mut open = from;
     while acceleration(open) <= 0.0 {
-        (shut, open) = (open, open + 1e-3);
+        open += 1e-3;
     }
-    for _ in 0..60 {
-        let middle = 0.5 * (shut + open);
-        if acceleration(middle) > 0.0 {
-            open = middle;
-        } else {
-            shut = middle;
-        }
-    }
-    open
+    bracket(from.max(open - 1e-3), open, |t| acceleration(t) > 0.0)[1]
 }
 
 /// One mass that comes to rest at the left wall until the forces pull it away.

@@ -1,17 +1,12 @@
-//! Runs the saved scenarios of Figs. 5 and 6 with the engine and with the second simulator.
+//! Runs the saved scenarios of Figs. 5 and 6 with the second simulator.
 
 use crate::reference::{Hit, Reference};
-use crate::trace;
 use impact_chain::Scenario;
 use impact_paper::experiments::segments::FILES;
 
-/// The saved scenarios of Figs. 5 and 6 were searched for, as random motions do not show the
-/// impacts of Fig. 6 in order (none in 10^7 impacts). For given *times* of the impacts all else is
-/// linear: each requires Δ = 0 and a kick of −(1 + r) Δ', in the unknown amplitudes (four for
-/// each mass) and kicks. The search went over times and lowered overlaps, kicks of the wrong sign,
-/// and large amplitudes; the best numbers were cut to five decimals.
-///
-/// The impacts L-1, 1-2, 2-3 and 3-R are gaps 0 to 3. That of Sec. 5 is not simple; both close.
+/// They were searched for, as random motions do not show the impacts of Fig. 6 in order (none in
+/// 10^7): for given times of the impacts amplitudes and kicks obey linear equations. The impacts
+/// L-1, 1-2, 2-3 and 3-R are gaps 0 to 3. That of Sec. 5 is not simple; both close.
 #[test]
 fn figures_5_and_6_show_their_circuits() {
     for (file, order) in FILES.into_iter().zip([&[0, 1, 3, 0][..], &[0, 0, 1, 0, 2, 1, 3, 3, 0]]) {
@@ -21,12 +16,6 @@ fn figures_5_and_6_show_their_circuits() {
         let scenario = Scenario::from_json(&saved["scenario"].to_string()).unwrap();
         let until = saved["until"].as_f64().unwrap();
         let hits = Reference::new(&scenario).run(until).unwrap();
-        let ours = trace(&scenario, until);
-        assert_eq!(ours.len(), hits.len(), "{file}");
-        for (hit, exact) in ours.iter().zip(&hits) {
-            let off = (hit.time - exact.time.hi).abs();
-            assert!(hit.gap == exact.gap && off < 1e-12, "{hit:?}");
-        }
         assert_eq!(saved["order"], serde_json::json!(order));
         assert_eq!(hits.iter().map(|hit| hit.gap).collect::<Vec<_>>(), order);
         // A grazing impact is no clear picture, nor are two at once.

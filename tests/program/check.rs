@@ -1,12 +1,14 @@
 //! Runs `impact-paper check`, and damages the templates: each fault has its file and line.
 
-use crate::{QUICK, run, templates};
+use crate::{QUICK, ends, templates};
 use impact_paper::claims::Basis;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-fn check(folder: &Path, more: &str) -> (i32, String, String) {
-    run(folder, format!("check --profile quick --results r --templates t {more}").trim())
+fn check(folder: &Path, more: &str, code: i32, words: &[&str]) -> String {
+    let line = format!("check --profile quick --results r --templates t {more}");
+    let [out, _] = ends(folder, line.trim(), code, words);
+    out
 }
 
 /// One of the statements would have another number.
@@ -19,9 +21,8 @@ fn every_statement_is_listed_and_one_that_differs_fails() {
         before.to_string()
             + &entry.replacen("\"16\"", "\"17\"", 1).replacen("value = 16", "value = 17", 1)
     });
-    let (code, text, note) = check(folder.path(), "-v");
     let differs = "differ without an explanation that holds: sec3_edges";
-    assert!(code == 1 && note.contains(differs), "{note}");
+    let text = check(folder.path(), "-v", 1, &[differs]);
     // The sign, the number, the id, the verdict, the place and the basis.
     let verdicts: BTreeMap<String, String> = text
         .lines()
@@ -29,9 +30,8 @@ fn every_statement_is_listed_and_one_that_differs_fails() {
         .map(|line| {
             let words: Vec<&str> = line.split_whitespace().collect();
             let verdict = line.split_once(": ").unwrap().1.split(" (").next().unwrap();
-            let basis =
-                Basis::ALL.iter().any(|basis| line.ends_with(&format!("{})", basis.words())));
-            assert!(basis && words[1].parse::<usize>().is_ok(), "{line}");
+            let is_basis = |basis: &Basis| line.ends_with(&format!("{})", basis.words()));
+            assert!(Basis::ALL.iter().any(is_basis) && words[1].parse::<usize>().is_ok(), "{line}");
             assert_eq!(line.starts_with('?'), verdict == "cannot be judged", "{line}");
             (words[2].trim_end_matches(':').to_string(), verdict.to_string())
         })
@@ -39,17 +39,17 @@ fn every_statement_is_listed_and_one_that_differs_fails() {
     assert_eq!(verdicts.len(), 87, "{text}");
     assert!(text.starts_with("FAILS") && verdicts["sec3_edges"] == "differs", "{text}");
     // Else a line for each that is not simply reproduced, with both sides.
-    let (_, short, _) = check(folder.path(), "");
+    let short = check(folder.path(), "", 1, &[]);
     let explained = verdicts.values().filter(|verdict| *verdict == "differs and explained").count();
     let lines = short.lines().filter(|line| line.starts_with('≠'));
     assert_eq!(lines.clone().count(), explained, "{short}");
     assert!(lines.clone().all(|line| line.contains("; paper: ") && line.contains("; here: ")));
     assert!(!short.contains(": reproduced;") && short.contains("check -v"), "{short}");
     // One by its number in the ledger.
-    let (code, one, _) = check(folder.path(), "1");
-    assert!(code == 0 && one.contains("1 statement of the paper"), "{one}");
-    let (code, one, _) = check(folder.path(), "two_seeds");
-    assert!(code == 0 && one.contains("1 of 1 relations between numbers hold"), "{one}");
+    let one = check(folder.path(), "1", 0, &[]);
+    assert!(one.contains("1 statement of the paper"), "{one}");
+    let one = check(folder.path(), "two_seeds", 0, &[]);
+    assert!(one.contains("1 of 1 relations between numbers hold"), "{one}");
     // The statements of the paper and our relations are scored apart.
     let scores: Vec<&str> =
         text.lines().skip_while(|line| !line.contains(" statements of the paper: ")).collect();
@@ -59,14 +59,12 @@ fn every_statement_is_listed_and_one_that_differs_fails() {
     assert!(scores[2].starts_with("our own checks: "), "{text}");
     // The report is written all the same.
     let paper = "paper --profile quick --out p --results r --templates t";
-    let (code, _, note) = run(folder.path(), paper);
-    assert!(code == 1 && note.contains("sec3_edges; `check` says more"), "{note}");
+    ends(folder.path(), paper, 1, &["sec3_edges; `check` says more"]);
     let ledger = std::fs::read_to_string(folder.path().join("p/ledger.json")).unwrap();
     assert!(ledger.contains("\"verdict\": \"differs\""));
 }
 
-/// An exit code, a file of the templates, its fault (other text, or with `+` lines at its end), and
-/// what the message has after the name of the file ($ is the last line).
+/// Exit code, file of the templates, its fault (or more lines), message ($ is the last line).
 const FAULTS: &str = r##"1 front.md +About 12 of them. => :$:7: hard-coded number 12
 2 literals.toml why = "what the model is -> why = " " # => : [
 2 claims/sec7.toml {first:8} -> {initial:8} => : [sec7_extrema] has {initial:8} in found; write {name} or {name:3}, with a name of first, crit, all
@@ -90,11 +88,10 @@ fn faults_of_the_prose_are_reported_with_their_place() {
             Some((from, to)) => text.replacen(from, to, 1),
             None => format!("{}\n\n{}\n", text.trim_end(), &fault[1..]),
         });
-        let (code, out, note) =
-            crate::run(here, "paper --profile quick --out p --results r --templates t");
         let prose = std::fs::read_to_string(here.join("t").join(file)).unwrap();
         let message = format!("{file}{}", message.replace('$', &prose.lines().count().to_string()));
-        let line = note.lines().last().unwrap();
-        assert!(code.to_string() == expected && line.contains(&message), "{message}: {out}{note}");
+        let paper = "paper --profile quick --out p --results r --templates t";
+        let [_, note] = ends(here, paper, expected.parse().unwrap(), &[]);
+        assert!(note.lines().last().unwrap().contains(&message), "{message}: {note}");
     }
 }

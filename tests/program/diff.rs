@@ -5,31 +5,14 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-/// Some files of the committed report twice, as `a` and as `b`.
-fn twice() -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    for name in ["a", "b"] {
-        for path in ["values.json", "ledger.json", "report.md", "data/fig07.csv", "data/fig12.csv"]
-        {
-            let to = folder.path().join(name).join(path);
-            fs::create_dir_all(to.parent().unwrap()).unwrap();
-            let from = Path::new(env!("CARGO_MANIFEST_DIR")).join("paper").join(path);
-            fs::write(to, fs::read(from).unwrap()).unwrap();
-        }
-    }
-    folder
-}
-
-fn edit(path: &Path, from: &str, to: &str) {
-    let before = fs::read_to_string(path).unwrap();
-    let after = before.replacen(from, to, 1);
-    assert_ne!(before, after, "{from}");
-    fs::write(path, after).unwrap();
-}
-
-/// Another number, verdict and datum, a lost file and a new one.
+/// Some files of the committed report twice, as `a` and as `b`, which has another number, verdict
+/// and datum, lacks a file and has a new one.
 fn changed() -> tempfile::TempDir {
-    let folder = twice();
+    let folder = tempfile::tempdir().unwrap();
+    let paths = ["values.json", "ledger.json", "report.md", "data/fig07.csv", "data/fig12.csv"];
+    let committed = |path: &str| fs::read(Path::new("paper").join(path)).unwrap();
+    let files = paths.map(|path| (path.to_string(), committed(path))).into();
+    ["a", "b"].iter().for_each(|name| put(&folder.path().join(name), &files));
     let changed = |path: &str| folder.path().join("b").join(path);
     let json = |path: &str| -> serde_json::Value {
         serde_json::from_str(&fs::read_to_string(changed(path)).unwrap()).unwrap()
@@ -54,7 +37,9 @@ fn changed() -> tempfile::TempDir {
     claim["verdict"] = "differs".into();
     claim["tolerance"] = "± 0.0001 | more".into();
     fs::write(changed("ledger.json"), format!("{ledger:#}\n")).unwrap();
-    edit(&changed("data/fig12.csv"), "25)\",0.021,1\n", "25)\",0.021,0.75\n");
+    let data = fs::read_to_string(changed("data/fig12.csv")).unwrap();
+    let data = data.replacen("25)\",0.021,1\n", "25)\",0.021,0.75\n", 1);
+    fs::write(changed("data/fig12.csv"), data).unwrap();
     fs::remove_file(changed("data/fig07.csv")).unwrap();
     fs::write(changed("data/new.csv"), "a\n1\n").unwrap();
     fs::write(changed("report.html"), "built beside").unwrap();
@@ -82,6 +67,8 @@ fn number_verdict_and_files_are_told_in_each_form() {
         assert!(differences.contains(line), "{line}: {differences}");
     }
     assert!(!differences.contains("report.html"), "{differences}");
+    fs::write(here.join("b/values.json"), "{\"a\": ").unwrap();
+    refused(here, "diff a b", &["b: values.json"]);
 }
 
 #[test]
@@ -112,11 +99,4 @@ fn revisions_of_git_are_compared() {
     }
     let (code, _, note) = outcome(program(&sub, "diff v1 paper").env("PATH", ""));
     assert!(code == 2 && note.contains("git: ") && note.lines().count() == 1, "{note}");
-}
-
-#[test]
-fn what_is_no_report_gets_one_line() {
-    let folder = twice();
-    fs::write(folder.path().join("b/values.json"), "{\"a\": ").unwrap();
-    refused(folder.path(), "diff a b", &["b: values.json"]);
 }

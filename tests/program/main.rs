@@ -26,13 +26,19 @@ const EXPERIMENTS: usize = 18;
 
 const SCENARIO: &str = r#"{"forcing":[[0.9,-0.4],[-0.7,0.8],[0.3,0.9]]}"#;
 
-/// The program in a folder, with arguments between blanks; the templates' path may have some.
+/// The program in a folder, with arguments between blanks; `@` is the folder of the templates.
 fn program(folder: &Path, arguments: &str) -> Command {
     let mut command = Command::new(PROGRAM);
-    let arguments = arguments.replace(TEMPLATES, "\u{1}");
-    let words = arguments.split(' ').map(|word| word.replace('\u{1}', TEMPLATES));
+    let words = arguments.split(' ').map(|word| if word == "@" { TEMPLATES } else { word });
     command.current_dir(folder).env("LITERATE_PROJECT", env!("CARGO_MANIFEST_DIR")).args(words);
     command
+}
+
+/// A folder with a scenario, s.json.
+fn folder(scenario: impl AsRef<[u8]>) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("s.json"), scenario).unwrap();
+    folder
 }
 
 /// Exit code, stdout and stderr; −1 for a program that a signal ended.
@@ -45,28 +51,30 @@ fn outcome(command: &mut Command) -> (i32, String, String) {
     ended_with(&command.output().unwrap())
 }
 
-fn run(folder: &Path, arguments: &str) -> (i32, String, String) {
-    outcome(&mut program(folder, arguments))
+/// The standard output and error of a run with this exit code and these words on stderr.
+fn ends(folder: &Path, arguments: &str, code: i32, words: &[&str]) -> [String; 2] {
+    let (ended, out, note) = outcome(&mut program(folder, arguments));
+    assert_eq!(ended, code, "{arguments}: {out}{note}");
+    for word in words {
+        assert!(note.contains(word), "{arguments}: {word:?} is not in {note}");
+    }
+    [out, note]
 }
 
 /// The standard output of a run that succeeds and says nothing else.
 fn answer(folder: &Path, arguments: &str) -> String {
-    let (code, out, note) = run(folder, &format!("-q {arguments}"));
-    assert_eq!((code, note.as_str()), (0, ""), "{arguments}: {out}");
+    let [out, note] = ends(folder, &format!("-q {arguments}"), 0, &[]);
+    assert_eq!(note, "", "{arguments}: {out}");
     out
 }
 
 /// Holds a run to its refusal: exit code 2, and one line on stderr, which has these words.
 fn refused(folder: &Path, arguments: &str, words: &[&str]) {
-    let (code, out, note) = run(folder, arguments);
-    let ending = (code, out.as_str(), note.lines().count());
-    assert_eq!(ending, (2, "", 1), "{arguments}: {note}");
+    let [out, note] = ends(folder, arguments, 2, words);
+    assert_eq!((out.as_str(), note.lines().count()), ("", 1), "{arguments}: {note}");
     assert!(note.len() < 2000 && !note.contains("panicked"), "{arguments}: {note}");
     for jargon in ["f64", "u64", "usize", "i128", "struct ", "enum ", "digit found", "literal:"] {
         assert!(!note.contains(jargon), "{arguments}: {note}");
-    }
-    for word in words {
-        assert!(note.contains(word), "{arguments}: {word:?} is not in {note}");
     }
 }
 
@@ -120,11 +128,9 @@ fn put(folder: &Path, files: &Files) {
 }
 
 /// Runs one of three shards of the quick profile, and returns its standard output and error.
-fn shard(folder: &Path, i: usize, results: &str) -> (String, String) {
+fn shard(folder: &Path, i: usize, results: &str) -> [String; 2] {
     let line = format!("run --profile quick --shard {i}/3 --results {results} --threads {i}");
-    let (code, out, note) = run(folder, &line);
-    assert_eq!(code, 0, "{out}{note}");
-    (out, note)
+    ends(folder, &line, 0, &[])
 }
 
 /// What the quick profile makes of three shards, run in another order and on other numbers of
@@ -133,20 +139,31 @@ struct Quick {
     shards: [Files; 3],
     results: Files,
     report: Files,
+    /// The same in a folder of target/, with links to files of the project.
+    below: Files,
 }
 
 static QUICK: LazyLock<Quick> = LazyLock::new(|| {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
     for i in [3, 1, 2] {
-        let (_, note) = shard(here, i, &i.to_string());
-        let begins = format!("shard {i}/3: ");
-        assert!(note.starts_with(&begins) && note.contains(" to run, "), "{note}");
+        let [_, note] = shard(here, i, &i.to_string());
+        let begins = note.starts_with(&format!("shard {i}/3: "));
+        assert!(begins && note.contains(" to run, "), "{note}");
     }
     let shards = [1, 2, 3].map(|i| files(&here.join(i.to_string())));
     shards.iter().for_each(|shard| put(&here.join("results"), shard));
-    let paper = "paper --profile quick --out report --results results --threads 4 --templates";
-    let (code, _, note) = run(here, &format!("{paper} {TEMPLATES}"));
+    let paper = "paper --profile quick --out report --results results --threads 4 --templates @";
+    ends(here, paper, 0, &[]);
+    let below = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/test-report");
+    let _ = fs::remove_dir_all(&below);
+    let paper = "-q paper --profile quick --results results --templates @ --out";
+    let (code, _, note) = outcome(program(here, paper).arg(&below));
     assert_eq!(code, 0, "{note}");
-    Quick { shards, results: files(&here.join("results")), report: tree(&here.join("report")) }
+    Quick {
+        shards,
+        results: files(&here.join("results")),
+        report: tree(&here.join("report")),
+        below: tree(&below),
+    }
 });

@@ -1,40 +1,28 @@
 //! Runs `impact-paper paper` and `verify`: what runs, what is written, what is left.
 
-use crate::{
-    EXPERIMENTS, QUICK, SCENARIO, TEMPLATES, answer, ended_with, files, program, put, sha256, tree,
-};
+use crate::{EXPERIMENTS, QUICK, SCENARIO, answer, ended_with, ends, files, program, put, refused};
+use crate::{sha256, tree};
 use std::fs;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 
-/// The program in a new folder, with the templates of the project.
-fn run(folder: &Path, arguments: &str) -> (i32, String, String) {
-    crate::run(folder, &format!("{arguments} --templates {TEMPLATES}"))
-}
-
-fn refused(folder: &Path, arguments: &str, words: &[&str]) {
-    crate::refused(folder, &format!("{arguments} --templates {TEMPLATES}"), words);
-}
-
 #[test]
 fn a_figure_alone_runs_and_writes_no_more_than_it_needs() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
-    let (code, out, note) = run(here, "paper --figure 4 --out f --results none");
-    assert_eq!((code, note.as_str()), (0, ""), "{out}");
-    assert!(out.starts_with("f: 1 file in "), "{out}");
+    let paper = "paper --figure 4 --out f --results none --templates @";
+    let [out, note] = ends(here, paper, 0, &[]);
+    assert!(note.is_empty() && out.starts_with("f: 1 file in "), "{out}{note}");
     assert!(here.join("f/figures/fig04.svg").is_file() && !here.join("none").exists());
-    let paper = "paper --profile quick --figure 3 --out g --results r";
-    assert_eq!(run(here, paper).0, 0);
+    let paper = "paper --profile quick --figure 3 --out g --results r --templates @";
+    ends(here, paper, 0, &[]);
     let written = tree(&here.join("g"));
     assert!(written.contains_key("figures/fig03.svg"), "{:?}", written.keys());
     assert!(written.keys().all(|name| name.contains("fig03") || name == "SHA256SUMS"));
-    let saved = files(&here.join("r"));
-    assert_eq!(
-        saved.into_iter().collect::<Vec<_>>(),
-        [("sweep-quick.json".to_string(), QUICK.results["sweep-quick.json"].clone())]
-    );
+    let name = "sweep-quick.json".to_string();
+    let only = [(name.clone(), QUICK.results[&name].clone())];
+    assert_eq!(files(&here.join("r")), only.into());
 }
 
 #[test]
@@ -44,15 +32,15 @@ fn saved_results_change_no_byte_and_neither_edits_nor_full_reports_are_written_o
     put(&path("r1"), &QUICK.results);
     put(&path("one"), &QUICK.report);
     fs::remove_file(path("one/values.json")).unwrap();
-    let paper = "paper --profile quick --out one --results r1";
+    let paper = "paper --profile quick --out one --results r1 --templates @";
     // Nothing is run, nothing changes, not even the saved files' times.
     let times = || -> Vec<_> {
         let files = QUICK.results.keys().map(|name| path("r1").join(name));
         files.map(|file| file.metadata().unwrap().modified().unwrap()).collect()
     };
     let before = times();
-    let (code, out, note) = run(folder.path(), paper);
-    assert_eq!((code, times()), (0, before), "{note}");
+    let [out, note] = ends(folder.path(), paper, 0, &[]);
+    assert_eq!(times(), before, "{note}");
     assert!(out.contains("report.html") && out.contains(" statements of the paper: "), "{out}");
     assert_eq!(note.matches(": fresh").count(), EXPERIMENTS, "{note}");
     assert!(QUICK.report == tree(&path("one")));
@@ -69,60 +57,55 @@ fn saved_results_change_no_byte_and_neither_edits_nor_full_reports_are_written_o
     fs::write(path("one/values.json"), full).unwrap();
     let before = tree(&path("one"));
     for arguments in ["--profile quick --force", "--profile quick --figure 4 --force"] {
-        refused(folder.path(), &format!("paper {arguments} --out one"), &["full profile"]);
+        let paper = format!("paper {arguments} --out one --templates @");
+        refused(folder.path(), &paper, &["full profile"]);
     }
     assert!(before == tree(&path("one")));
 }
 
-/// Sends a signal to a program at work, and holds it to exit code 130: its stdout, stderr.
-fn ended(mut child: Child, signal: &str) -> [String; 2] {
+/// A program at work, and the first line on its standard error.
+fn started(folder: &Path, arguments: &str) -> (Child, String) {
+    let mut command = program(folder, arguments);
+    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let mut line = String::new();
+    BufReader::new(child.stderr.as_mut().unwrap()).read_line(&mut line).unwrap();
+    (child, line)
+}
+
+/// Ends a program at work by a signal, and holds it to exit code 130: its stdout, stderr.
+fn ended(mut child: Child) -> [String; 2] {
     let early = child.try_wait().unwrap();
-    let kill = Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap();
+    let kill = Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap();
     assert!(early.is_none() && kill.success(), "it must still be running: {early:?}");
     let (code, out, note) = ended_with(&child.wait_with_output().unwrap());
     assert_eq!(code, 130, "{out}{note}");
     [out, note]
 }
 
-/// The first line on the standard error of a program that is at work.
-fn first_line(child: &mut Child) -> String {
-    let mut line = String::new();
-    BufReader::new(child.stderr.as_mut().unwrap()).read_line(&mut line).unwrap();
-    line
-}
-
-/// Runs of minutes, which say first how long they take, and one that waits for its reader and says
-/// after some seconds that it is still there.
+/// Runs of minutes say first how long they take; one that waits says after 5 s that it runs.
 #[cfg(unix)]
 #[test]
 fn signals_end_the_work_and_leave_nothing_half_written() {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("s.json"), SCENARIO).unwrap();
-    let paper = "paper --figure 3 --out paper --results r --threads 1 --templates";
-    let mut command = program(folder.path(), &format!("{paper} {TEMPLATES}"));
-    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-    let line = first_line(&mut child);
+    let folder = crate::folder(SCENARIO);
+    let paper = "paper --figure 3 --out paper --results r --threads 1 --templates @";
+    let (child, line) = started(folder.path(), paper);
     assert!(line.starts_with("1 experiment to run, about "), "{line}");
     assert!(line.contains(" on 1 thread; `--profile quick` takes seconds"), "{line}");
     std::thread::sleep(std::time::Duration::from_millis(300));
-    let [out, note] = ended(child, "-TERM");
+    let [out, note] = ended(child);
     assert!(out.is_empty() && note.contains("interrupted"), "{out}{note}");
     assert!(!folder.path().join("paper").exists());
     let saved = tree(&folder.path().join("r"));
     assert!(saved.keys().all(|name| name.starts_with("sweep-full-")), "whole units are kept");
 
-    let mut command = program(folder.path(), &format!("check --results c --templates {TEMPLATES}"));
-    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-    let line = first_line(&mut child);
+    let (child, line) = started(folder.path(), "check --results c --templates @");
     assert!(line.starts_with(&format!("{EXPERIMENTS} experiments to run, about ")), "{line}");
     assert!(line.contains("`--profile quick` takes seconds"), "{line}");
-    ended(child, "-TERM");
+    ended(child);
 
-    let mut command = program(folder.path(), "trace s.json --until 1e12");
-    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-    let line = first_line(&mut child);
+    let (child, line) = started(folder.path(), "trace s.json --until 1e12");
     assert!(line.starts_with("trace: at t = ") && line.contains(", after 5 s"), "{line}");
-    let [out, _] = ended(child, "-TERM");
+    let [out, _] = ended(child);
     assert!(out.ends_with('\n'), "whole lines");
 }
 
@@ -136,16 +119,14 @@ fn what_others_made_is_left_as_it_is() {
         fs::write(here.join(name), "by hand").unwrap();
     }
     let before = tree(here);
-    for (arguments, says) in [
-        ("paper --profile quick --out .", "--out: .: it has files and no SHA256SUMS"),
-        ("paper --figure 4 --out t", "--out: t: it has files and no SHA256SUMS"),
-    ] {
-        refused(here, arguments, &[says, "--force"]);
+    for (out, arguments) in [(".", "--profile quick"), ("t", "--figure 4")] {
+        let says = format!("--out: {out}: it has files and no SHA256SUMS");
+        refused(here, &format!("paper {arguments} --out {out} --templates @"), &[&says, "--force"]);
     }
     assert!(tree(here) == before, "{:?}", tree(here).keys());
     // Forced, it writes, and its folder is written again without.
-    assert_eq!(run(here, "paper --figure 4 --out t --force").0, 0);
-    assert_eq!(run(here, "paper --figure 4 --figure 5 --out t").0, 0);
+    ends(here, "paper --figure 4 --out t --force --templates @", 0, &[]);
+    ends(here, "paper --figure 4 --figure 5 --out t --templates @", 0, &[]);
     assert_eq!(fs::read_to_string(here.join("t/report.md")).unwrap(), "by hand");
 }
 
@@ -153,7 +134,6 @@ fn what_others_made_is_left_as_it_is() {
 fn a_rerun_finds_what_the_list_cannot() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
-    let templates = format!("--templates {TEMPLATES}");
     put(&here.join("r"), &QUICK.report);
     put(&here.join("saved"), &QUICK.results);
 
@@ -169,16 +149,13 @@ fn a_rerun_finds_what_the_list_cannot() {
     let (old, new) = (sha256(&before), sha256(format!("{before}9\n")));
     let more = format!("{}  data/more.csv\n", sha256(""));
     edit("SHA256SUMS", &|list| list.replace(&old, &new) + &more);
-    let (code, out, _) = crate::run(here, "verify r");
-    assert_eq!((code, &*out), (1, "differs  report.html\n"));
+    assert_eq!(ends(here, "verify r", 1, &[])[0], "differs  report.html\n");
     let page = fs::read_to_string(here.join("r/report.html")).unwrap();
     let [old, new] = [&page[..page.len() - 1], &page].map(sha256);
     edit("SHA256SUMS.built", &|list| list.replace(&old, &new));
     assert!(answer(here, "verify r").contains(" files, all as SHA256SUMS lists them\n"));
-    let (code, out, note) =
-        crate::run(here, &format!("verify r --rerun --results saved {templates}"));
-    assert_eq!(code, 1, "{out}{note}");
-    assert!(note.contains("5 files; with the same options `paper --force` writes"), "{note}");
+    let says = "5 files; with the same options `paper --force` writes";
+    let [out, _] = ends(here, "verify r --rerun --results saved --templates @", 1, &[says]);
     let lines: Vec<&str> = out.lines().skip(1).collect();
     let names = [
         "differs  SHA256SUMS",
@@ -192,6 +169,6 @@ fn a_rerun_finds_what_the_list_cannot() {
     // What is lost or new is named without a rerun.
     fs::remove_file(here.join("r/data/fig02a.csv")).unwrap();
     fs::write(here.join("r/data/strange.csv"), "").unwrap();
-    let (code, out, _) = crate::run(here, "verify r");
-    assert_eq!((code, &*out), (1, "missing  data/fig02a.csv\nunlisted data/strange.csv\n"));
+    let [out, _] = ends(here, "verify r", 1, &[]);
+    assert_eq!(out, "missing  data/fig02a.csv\nunlisted data/strange.csv\n");
 }

@@ -1,8 +1,8 @@
-//! Tests that saved results are never stale and never half, whatever happens to the program, and
-//! that work shared out to several machines gives the bytes of one.
+//! Tests that saved results are never stale or half, and that shared work has the same bytes.
 
 use crate::{
-    EXPERIMENTS, Files, PROGRAM, QUICK, TEMPLATES, files, forged, program, put, run, sha256, shard,
+    EXPERIMENTS, Files, PROGRAM, QUICK, ended_with, ends, files, forged, outcome, program, put,
+    sha256, shard,
 };
 use std::collections::BTreeSet;
 use std::fs;
@@ -18,8 +18,7 @@ fn together() -> tempfile::TempDir {
 
 /// Joins what is in `results`, and returns standard error.
 fn joined(folder: &Path) -> String {
-    let (code, text, note) = run(folder, "run --profile quick --results results");
-    assert_eq!(code, 0, "{text}{note}");
+    let [_, note] = ends(folder, "run --profile quick --results results", 0, &[]);
     assert!(files(&folder.join("results")) == QUICK.results, "{note}");
     note
 }
@@ -27,7 +26,7 @@ fn joined(folder: &Path) -> String {
 /// What `paper --dry-run` says of results, a line for each experiment that would be run.
 fn stale(folder: &Path, results: &str) -> String {
     let dry = format!("paper --profile quick --dry-run --results {results}");
-    let (code, text, _) = run(folder, &dry);
+    let (code, text, _) = outcome(&mut program(folder, &dry));
     assert_eq!(code, i32::from(!text.is_empty()), "{text}");
     text
 }
@@ -67,10 +66,8 @@ fn each_reason_is_told_and_nothing_else_is_run_again() {
         fs::write(folder.join("results").join(name), bytes).unwrap();
     }
     let note = joined(folder);
-    assert!(
-        note.matches(": fresh").count() == EXPERIMENTS - 1 && note.contains(&expected[2]),
-        "{note}"
-    );
+    assert_eq!(note.matches(": fresh").count(), EXPERIMENTS - 1, "{note}");
+    assert!(note.contains(&expected[2]), "{note}");
 }
 
 #[test]
@@ -85,7 +82,7 @@ fn shards_in_one_folder_are_joined_once() {
     assert!(!note.contains("run again") && note.contains("sweep: 18 of 18 units there"), "{note}");
     // Now all is joined, and neither a shard nor a whole run has anything to do.
     assert_eq!(stale(folder, "results"), "");
-    let (_, note) = shard(folder, 1, "results");
+    let [_, note] = shard(folder, 1, "results");
     assert!(!note.contains(": run"), "{note}");
     let note = joined(folder);
     assert!(!note.contains(": run") && !note.contains("to run"), "{note}");
@@ -110,7 +107,7 @@ fn a_unit_that_is_missing_or_not_to_be_used_is_run_again() {
         let has = |shard: &Files| shard.contains_key("sweep-quick-0007.json");
         let i = QUICK.shards.iter().position(has).unwrap() + 1;
         let there = QUICK.shards[i - 1].len() - 1;
-        let (out, note) = shard(folder, i, "results");
+        let [out, note] = shard(folder, i, "results");
         assert_eq!(out, format!("results: shard {i}/3: 1 unit run, {there} already saved\n"));
         let line = says.map(|says| format!("sweep: 1 unit run again, {says}"));
         assert!(line.is_none_or(|line| note.contains(&line)), "{says:?}: {note}");
@@ -121,8 +118,7 @@ fn a_unit_that_is_missing_or_not_to_be_used_is_run_again() {
     assert_eq!(note.matches("run again").count(), 1, "{note}");
 }
 
-/// Killed without a chance to tidy up, at several moments, a run loses no unit that it saved; and
-/// goes on in a report that is made again, to the bytes of the shards.
+/// Killed at several moments, a run loses no unit that it saved, and goes on in `verify`.
 #[test]
 fn a_killed_run_goes_on_to_the_bytes_of_shards() {
     let folder = tempfile::tempdir().unwrap();
@@ -140,35 +136,27 @@ fn a_killed_run_goes_on_to_the_bytes_of_shards() {
     }
     // By the profile that the report names, on one thread.
     put(&folder.join("report"), &QUICK.report);
-    let verify = "verify report --rerun --threads 1 --results results --templates";
-    let (code, out, note) = run(folder, &format!("{verify} {TEMPLATES}"));
-    assert!(code == 0 && note.contains(": run") && !note.contains("run again"), "{out}{note}");
+    let verify = "verify report --rerun --threads 1 --results results --templates @";
+    let [out, note] = ends(folder, verify, 0, &[": run"]);
+    assert!(!note.contains("run again"), "{note}");
     assert!(out.contains("made again with the quick profile, the same bytes"), "{out}");
     assert!(files(&folder.join("results")) == QUICK.results);
 }
 
-/// A job array on a real Slurm gives the bytes of one machine, even if a task is killed on its way.
-/// Starts munged, slurmctld and slurmd on this machine (root installs them when missing), and stops
-/// them. Some minutes, most of it the full profile twice.
+/// Starts a Slurm on this machine (root installs it when missing), and stops it.
 #[test]
 #[ignore = "starts a Slurm, and runs the full profile twice"]
 fn a_job_array_with_a_killed_task_gives_the_bytes_of_one_machine() {
     let folder = tempfile::tempdir().unwrap();
     let cluster = Path::new(env!("CARGO_MANIFEST_DIR")).join("benches/cluster");
-    let output = Command::new(cluster.join("with-slurm"))
-        .arg(cluster.join("trial"))
-        .arg(PROGRAM)
-        .arg(folder.path())
-        .output()
-        .unwrap();
-    let text = String::from_utf8_lossy(&output.stdout);
-    let note = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success() && text.contains("killed task 2"), "{text}{note}");
+    let mut command = Command::new(cluster.join("with-slurm"));
+    command.arg(cluster.join("trial")).arg(PROGRAM).arg(folder.path());
+    let (code, text, note) = ended_with(&command.output().unwrap());
+    assert!(code == 0 && text.contains("killed task 2"), "{text}{note}");
     let made = |results: &str| -> Vec<_> {
-        let paper = format!("paper --out report --results {results} --templates {TEMPLATES}");
-        let (code, _, said) = run(folder.path(), &paper);
-        assert_eq!(code, 0, "{said}");
-        assert!(results == "local" || !said.contains("run again"), "{said}");
+        let paper = format!("paper --out report --results {results} --templates @");
+        let [_, note] = ends(folder.path(), &paper, 0, &[]);
+        assert!(results == "local" || !note.contains("run again"), "{note}");
         let sum = |(name, bytes): (String, Vec<u8>)| (name, sha256(bytes));
         files(&folder.path().join(results)).into_iter().map(sum).collect()
     };

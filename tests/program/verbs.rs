@@ -1,6 +1,6 @@
 //! Runs the verbs that this paper adds to the program: `eval`, `sweep` and `trace`.
 
-use crate::{SCENARIO, answer, program, run};
+use crate::{SCENARIO, answer, ends, folder, program, refused};
 use impact_circuits::distribution::{Law, SampleSpace};
 use impact_circuits::impact_probability::ImpactProbability;
 use impact_circuits::{counting, jump};
@@ -20,42 +20,32 @@ fn object(arguments: &str) -> Value {
     serde_json::from_str(&json).unwrap()
 }
 
-fn float(arguments: &str) -> f64 {
-    let value = &object(arguments)["value"];
-    assert!(value.is_f64(), "{arguments}: {value} is printed as a float");
-    value.as_f64().unwrap()
-}
-
-fn integer(arguments: &str) -> u64 {
-    object(arguments)["value"].as_u64().expect("an integer is printed as one")
-}
-
 #[test]
 fn every_quantity_prints_what_the_library_computes() {
-    let (simple, five) = (SampleSpace::Simple, SampleSpace::FiveClasses);
-    let law = |space| Law::new(space, 41, 0.07).unwrap();
     let [spacing, natural_frequency, forcing_frequency] = [1.5, 1.1, 0.6];
     let chain = Chain { spacing, natural_frequency, forcing_frequency, ..Chain::default() };
     let relation = ImpactProbability::new(0.2, &chain).unwrap();
-    assert_eq!(float("p-crit --vertices 41"), jump::p_crit(41).unwrap());
-    assert_eq!(float("p-jump --vertices 41"), jump::p_jump(simple, 41).unwrap().p);
-    assert_eq!(float("higher-p-jump --vertices 41"), jump::p_jump(five, 41).unwrap().p);
-    let after = |space| jump::p_jump(space, 41).unwrap().k_after as u64;
-    assert_eq!(integer("k-after-jump --vertices 41"), after(simple));
-    assert_eq!(integer("higher-k-after-jump --vertices 41"), after(five));
-    for (prefix, space) in [("", simple), ("higher-", five)] {
-        let quantity = |name: &str| format!("{prefix}{name} --vertices 41 --p 0.07");
-        assert_eq!(integer(&quantity("k-star")), law(space).k_star() as u64);
-        assert_eq!(float(&quantity("mean-impacts")), law(space).mean());
-        assert_eq!(
-            float(&(quantity("probability") + " --k 7")),
-            law(space).probability(7).unwrap()
-        );
-    }
-    assert_eq!(float("log-circuits --vertices 41 --k 7"), counting::log_phi(41, 7).unwrap());
     let given = "--sigma 0.2 --spacing 1.5 --omega 1.1 --forcing-frequency 0.6";
-    assert_eq!(float(&format!("p-of-sigma {given}")), relation.p().unwrap());
-    assert_eq!(float(&format!("log-p-of-sigma {given}")), relation.log_p().unwrap());
+    let mut expected = vec![
+        ("p-crit --vertices 41".to_string(), json!(jump::p_crit(41).unwrap())),
+        ("log-circuits --vertices 41 --k 7".into(), json!(counting::log_phi(41, 7).unwrap())),
+        (format!("p-of-sigma {given}"), json!(relation.p().unwrap())),
+        (format!("log-p-of-sigma {given}"), json!(relation.log_p().unwrap())),
+    ];
+    for (prefix, space) in [("", SampleSpace::Simple), ("higher-", SampleSpace::FiveClasses)] {
+        let (law, leap) = (Law::new(space, 41, 0.07).unwrap(), jump::p_jump(space, 41).unwrap());
+        expected.extend([
+            (format!("{prefix}p-jump --vertices 41"), json!(leap.p)),
+            (format!("{prefix}k-after-jump --vertices 41"), json!(leap.k_after)),
+            (format!("{prefix}k-star --vertices 41 --p 0.07"), json!(law.k_star())),
+            (format!("{prefix}mean-impacts --vertices 41 --p 0.07"), json!(law.mean())),
+        ]);
+        let probability = format!("{prefix}probability --vertices 41 --p 0.07 --k 7");
+        expected.push((probability, json!(law.probability(7).unwrap())));
+    }
+    for (arguments, expected) in expected {
+        assert_eq!(object(&arguments)["value"], expected, "{arguments}");
+    }
 }
 
 #[test]
@@ -70,10 +60,9 @@ fn the_answer_is_one_object_with_the_inputs_and_their_defaults() {
     let expected = json!({"sigma": 0.15, "omega": 1.0, "forcing_frequency": root, "spacing": 1.0});
     assert_eq!(object("p-of-sigma --sigma 0.15")["inputs"], expected);
     assert_eq!(object("p-crit")["inputs"], json!({"vertices": 100}));
-    let (code, _, note) = run(Path::new("."), "eval p-crit --vertices 2");
-    assert!(code == 0 && note.contains("no probability"), "{note}");
+    ends(Path::new("."), "eval p-crit --vertices 2", 0, &["no probability"]);
     // A million are answered at once, and zero has no sign.
-    assert_eq!(integer("k-star --vertices 1000000 --p 0.3"), 999_997);
+    assert_eq!(object("k-star --vertices 1000000 --p 0.3")["value"], 999_997);
     assert_eq!(object("k-star --p -0.0")["inputs"]["p"].to_string(), "0.0");
     let list = eval("--list");
     assert_eq!(list.lines().count(), 14);
@@ -87,8 +76,8 @@ const SMALL: &str = "--masses 30 --realisations 24 --transient 60 --window 40";
 fn a_sweep_takes_no_more_memory_than_it_says() {
     let sweep = "ulimit -v 1000000; exec \"$0\" sweep --sigma 0.3 --masses 1000000 --realisations 1 --transient 0 \
                  --window 1 --threads 1";
-    let output = Command::new("bash").args(["-c", sweep, crate::PROGRAM]).output().unwrap();
-    let (code, table, note) = crate::ended_with(&output);
+    let mut command = Command::new("bash");
+    let (code, table, note) = crate::outcome(command.args(["-c", sweep, crate::PROGRAM]));
     assert!(code == 0 && table.contains("0.3,"), "{note}");
 }
 
@@ -112,12 +101,10 @@ fn the_same_bytes_for_any_number_of_threads() {
 fn columns_and_rows() {
     let table = table("--sigma 0.01,0.2");
     let lines: Vec<&str> = table.lines().collect();
-    assert_eq!(
-        lines[0],
-        "sigma,realisations,kept,rejected,mean_distinct,standard_error,mode_distinct,\
-         impacts_per_time,impacts,near_simultaneous,slow,contact_phases,mean_all,\
-         standard_error_all,simultaneous,undecided,transient,window"
-    );
+    let header = "sigma,realisations,kept,rejected,mean_distinct,standard_error,mode_distinct,\
+                  impacts_per_time,impacts,near_simultaneous,slow,contact_phases,mean_all,\
+                  standard_error_all,simultaneous,undecided,transient,window";
+    assert_eq!(lines[0], header);
     // At σ = 0.01 nothing can hit: the gap closes only for a 25-σ force. Empty, not zero or NaN.
     assert!(lines[1].starts_with("0.01,24,0,0,,,,,0,0,0,0"), "{table}");
     assert!(lines[2].starts_with("0.2,24,"));
@@ -154,19 +141,12 @@ fn parts_windows_and_parameters_of_a_sweep() {
 fn overlapping_starts_are_rejected_counted_and_named() {
     // σ = 0.3: 99 % of the random starts overlap, none of those from rest.
     let random = format!("sweep --sigma 0.3 --initial random {SMALL}");
-    let (code, random, note) = run(Path::new("."), &random);
-    assert!(code == 0 && note.contains("not comparable"), "{note}");
+    let [random, _] = ends(Path::new("."), &random, 0, &["not comparable"]);
     let rejected = |table: &str| -> usize {
         table.lines().nth(1).unwrap().split(',').nth(3).unwrap().parse().unwrap()
     };
     assert!(rejected(&random) > 12, "{random}");
     assert_eq!(rejected(&table("--sigma 0.3")), 0);
-}
-
-fn folder(scenario: &str) -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("s.json"), scenario).unwrap();
-    folder
 }
 
 #[test]
@@ -197,8 +177,8 @@ fn states_and_many_scenarios() {
     let one_line = SCENARIO.replace('\n', " ");
     std::fs::write(folder.path().join("s.json"), format!("{one_line}\n{one_line}\n\n[]\n"))
         .unwrap();
-    let (code, text, note) = run(folder.path(), "trace s.json --lines --until 9");
-    assert!(code == 2 && note.contains("s.json, line 4: scenario: "), "{note}");
+    let trace = "trace s.json --lines --until 9";
+    let [text, _] = ends(folder.path(), trace, 2, &["s.json, line 4: scenario: "]);
     let expected = |cells: [&str; 2], last: &str| {
         let rows = |cell: &str| -> String {
             plain.lines().skip(1).map(|row| format!("{cell},{row}\n")).collect()
@@ -208,9 +188,8 @@ fn states_and_many_scenarios() {
     };
     let header = "scenario,time,gap,closing_speed\n";
     assert_eq!(text, header.to_string() + &expected(["1", "2"], ""));
-    let (code, text, note) = run(folder.path(), "trace s.json --lines --until 9 --keep-going");
     let notes = ["line 4: scenario: ", "lines refused or stopped: 1"];
-    assert!(code == 1 && notes.iter().all(|words| note.contains(words)), "{note}");
+    let [text, _] = ends(folder.path(), &format!("{trace} --keep-going"), 1, &notes);
     let header = "scenario,status,time,gap,closing_speed\n";
     assert_eq!(text, header.to_string() + &expected(["1,ok", "2,ok"], "4,refused,,,\n"));
 }
@@ -238,19 +217,17 @@ fn a_run_goes_on_from_what_was_saved() {
     assert_eq!(samples.len(), 5 * 3);
     assert!((samples[3].0 - std::f64::consts::TAU / 2.0_f64.sqrt()).abs() < 1e-14);
     assert_eq!(rows("--from half.json --at period --until 20").len(), 2 * 3);
-    let (code, _, note) = run(folder.path(), "trace s.json --from half.json --until 11");
-    assert!(code == 2 && note.contains("--until: 11.0 is before the state, at 12.0"), "{note}");
     assert_eq!(rows("--at 0..9:4.5 --until 5").len(), 2 * 3);
     assert_eq!(rows("--at 1,2,2,3").len(), 3 * 3);
-    let (code, _, note) = run(folder.path(), "trace s.json --from half.json --at 11,13");
-    assert!(code == 2 && note.contains("--at: 11.0 is before the state, at 12.0"), "{note}");
-    std::fs::write(
-        folder.path().join("short.json"),
-        r#"{"time":1,"positions":[],"velocities":[]}"#,
-    )
-    .unwrap();
-    let (code, _, note) = run(folder.path(), "trace s.json --from short.json --until 11");
-    assert!(code == 2 && note.contains("--from: short.json: positions: it has 0"), "{note}");
+    let short = r#"{"time":1,"positions":[],"velocities":[]}"#;
+    std::fs::write(folder.path().join("short.json"), short).unwrap();
+    for (arguments, says) in [
+        ("--from half.json --until 11", "--until: 11.0 is before the state, at 12.0"),
+        ("--from half.json --at 11,13", "--at: 11.0 is before the state, at 12.0"),
+        ("--from short.json --until 11", "--from: short.json: positions: it has 0"),
+    ] {
+        refused(folder.path(), &format!("trace s.json {arguments}"), &[says]);
+    }
 }
 
 #[test]
@@ -269,26 +246,23 @@ fn the_method_that_is_named_is_run() {
     }
 }
 
+/// Ties, contact, rounding where a run is stopped, and rounding near resonance.
 #[test]
-fn what_was_done_with_ties_is_said() {
-    let folder = folder(r#"{"forcing":[[0.9,0.8],[0,0],[-0.9,-0.8]]}"#);
-    let (code, _, note) = run(folder.path(), "trace s.json --until 12");
-    assert!(code == 0 && note.contains(": 3 of 15; ") && note.lines().count() == 1, "{note}");
-}
-
-#[test]
-fn the_truth_ends_where_a_gap_comes_to_rest() {
-    let folder = folder(r#"{"restitution":0.2,"forcing":[[5.88,-4.94]]}"#);
-    let (code, _, note) = run(folder.path(), "trace s.json --until 100 --method truth");
-    assert!(code == 2 && note.contains("does not support contact; use another method"), "{note}");
-}
-
-#[test]
-fn a_run_that_is_stopped_tells_its_rounding() {
+fn standard_error_says_what_a_run_did() {
+    let near = r#"{"forcing":[[0.9,-0.4]],"forcing_frequency":1.0000001}"#;
     // A fast mass between walls has more impacts in 1/w than a run may have.
     let fast = r#"{"natural_frequency":0.001,"forcing_frequency":1000,"restitution":1,"forcing":[[0,1e6]]}"#;
-    let folder = folder(fast);
-    let (code, out, note) = run(folder.path(), "trace s.json --until 1e4");
-    assert!(code == 1 && out.lines().count() > 1000 && note.lines().count() == 2, "{note}");
-    assert!(note.contains("may move each impact"), "{note}");
+    let tied = r#"{"forcing":[[0.9,0.8],[0,0],[-0.9,-0.8]]}"#;
+    let stuck = r#"{"restitution":0.2,"forcing":[[5.88,-4.94]]}"#;
+    for (scenario, run, code, note, lines, rows) in [
+        (tied, "--until 12", 0, ": 3 of 15; ", 1, 15),
+        (stuck, "--until 100 --method truth", 2, "does not support contact; use another", 1, 0),
+        (fast, "--until 1e4", 1, "may move each impact", 2, 1000),
+        (near, "--until 20", 0, "closing speed v by 2.9e-7/v", 1, 2),
+    ] {
+        let folder = folder(scenario);
+        let [out, said] = ends(folder.path(), &format!("trace s.json {run}"), code, &[note]);
+        assert_eq!(said.lines().count(), lines, "{said}");
+        assert!(out.lines().count() > rows || rows == 0, "{scenario}: {out}");
+    }
 }

@@ -5,6 +5,7 @@ import json
 import re
 import tomllib
 import unittest
+from collections import Counter
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -196,6 +197,38 @@ class Files(unittest.TestCase):
             # What owner.toml adds is the owner's.
             words = text(document).split("To cite: [CITATION.cff](CITATION.cff).")[0].split()
             self.assertLessEqual(len(words), most, document)
+
+    def test_the_readme_has_the_score_of_the_ledger(self):
+        rows = json.loads(text("paper/ledger.json"))["claims"]
+        rows = [row for row in rows if row["kind"] == "statement"]
+        count = Counter(row["verdict"] for row in rows)
+
+        def resting_on(*bases):
+            verdicts = [row["verdict"] for row in rows if row["basis"] in bases]
+            return len(verdicts), verdicts.count("reproduced")
+
+        theory, measures = resting_on("exact", "rounding", "finite cases"), resting_on("our measure")
+        digits, reproduced = resting_on("printed digit")
+        self.assertEqual(reproduced, 0)
+        for sentence in [
+            f"of {len(rows)} statements {count['reproduced']} are reproduced, "
+            f"{count['differs and explained']} differ and are explained, {count['differs']} differ, "
+            f"and {count['cannot be judged']} cannot be judged",
+            f"rest {theory[0]} of them, of which {theory[1]} are reproduced; on our measure of a word "
+            f"rest {measures[0]}, of which {measures[1]} are; the one number printed for the "
+            f"simulation, in {digits} readings, cannot",
+        ]:
+            self.assertIn(sentence, " ".join(text("README.md").split()))
+
+    def test_no_file_has_a_path_of_a_machine(self):
+        endings = (".rs", ".toml", ".md", ".tex", ".bib", ".json", ".csv", ".svg", "run")
+        files = [ROOT / "Makefile", ROOT / "CITATION.cff", *ROOT.glob("*.md"), *ROOT.glob("*.toml")]
+        for folder in ("src", "crates", "tests", "templates", "paper", ".ci"):
+            files += [file for file in (ROOT / folder).rglob("*") if file.name.endswith(endings)]
+        self.assertGreater(len(files), 500)
+        for file in filter(Path.is_file, files):
+            path = re.search("/(work|root|home|tmp|Users)/", file.read_text(encoding="utf-8"))
+            self.assertIsNone(path, file)
 
 
 if __name__ == "__main__":

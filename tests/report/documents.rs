@@ -1,10 +1,7 @@
-//! Reads the documents as a host does: by a CommonMark parser with tables, which knows nothing of
-//! our mathematics. What it makes of the text must be what the document means. And their lengths
-//! are bounded: a reader of five minutes, half an hour or a day must not find that one has grown
-//! beyond its time. (The browser test bounds the pages, and `.ci/latex` those in print.)
+//! Reads the documents by a CommonMark parser, as a host does, and bounds their lengths: a reader
+//! of five minutes, half an hour or a day must not find that one has grown beyond its time.
 
 use super::QUICK;
-use literate::report::{Document, Files};
 use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
 
 /// Words of prose: no code, no displayed formula, no table, no address of a link, no description
@@ -38,31 +35,25 @@ fn section<'a>(markdown: &'a str, heading: &str) -> &'a str {
 
 #[test]
 fn no_document_outgrows_its_reader() {
-    let markdown_of =
-        |name: &str| std::str::from_utf8(&QUICK.report[&format!("{name}.md")]).unwrap().to_owned();
-    let (edition, beyond) = (markdown_of("report"), markdown_of("beyond"));
+    let (edition, beyond) = (QUICK.text("report.md"), QUICK.text("beyond.md"));
     let counts = [
-        ("the front page", words(&markdown_of("README")), 600),
-        ("the edition", words(&edition), 7_000),
-        ("its abstract", words(section(&edition, "Abstract")), 220),
-        ("the second paper", words(&beyond), 4_500),
-        ("its abstract", words(section(&beyond, "Abstract")), 120),
-        ("the methods", words(&markdown_of("methods")), 3_000),
+        ("the front page", words(QUICK.text("README.md")), 600),
+        ("the edition", words(edition), 7_000),
+        ("its abstract", words(section(edition, "Abstract")), 220),
+        ("the second paper", words(beyond), 4_500),
+        ("its abstract", words(section(beyond, "Abstract")), 120),
+        ("the methods", words(QUICK.text("methods.md")), 3_000),
     ];
     let too_long: Vec<_> =
         counts.iter().filter(|(_, count, budget)| *count * 10 > budget * 11).collect();
     assert!(too_long.is_empty(), "more than ten per cent too long: {too_long:?}");
 }
 
-fn texts() -> impl Iterator<Item = (&'static Document, &'static str)> {
-    QUICK.paper.edition.documents.iter().map(|document| (document, QUICK.markdown(document)))
-}
-
 fn events(text: &str) -> Vec<Event<'_>> {
     Parser::new_ext(text, Options::ENABLE_TABLES).collect()
 }
 
-fn links(text: &str) -> (Vec<String>, Vec<String>) {
+fn links(text: &str) -> [Vec<String>; 2] {
     let link = |event| match event {
         Event::Start(Tag::Link { dest_url: to, .. } | Tag::Image { dest_url: to, .. }) => {
             Some(to.to_string())
@@ -71,26 +62,20 @@ fn links(text: &str) -> (Vec<String>, Vec<String>) {
     };
     let places =
         text.split("<a id=\"").skip(1).map(|piece| piece.split('"').next().unwrap().into());
-    (events(text).into_iter().filter_map(link).collect(), places.collect())
+    [events(text).into_iter().filter_map(link).collect(), places.collect()]
 }
 
 #[test]
 fn every_link_lands_wherever_the_report_is_written() {
-    let links_of = |report: &Files| {
-        let markdown = |of: &Document| {
-            let markdown = std::str::from_utf8(&report[of.markdown]).unwrap();
-            (of.markdown.to_string(), links(markdown))
-        };
-        QUICK.paper.edition.documents.iter().map(markdown).collect()
-    };
-    super::links_land(links_of, 200, 150);
+    let names = QUICK.paper.edition.documents.iter().map(|document| document.markdown);
+    super::links_land(names.collect(), links, 200, 150);
 }
 
-/// Mathematics comes through Markdown as it was written, escapes, stars and underscores included:
-/// between one dollar and the next the parser finds text and nothing else.
+/// Between one dollar and the next the parser finds text and nothing else.
 #[test]
 fn mathematics_is_left_alone() {
-    let formulas: usize = texts().map(|(_, text)| formulas(text)).sum();
+    let documents = QUICK.paper.edition.documents.iter();
+    let formulas: usize = documents.map(|document| formulas(QUICK.text(document.markdown))).sum();
     assert!(formulas > 400, "{formulas}");
 }
 

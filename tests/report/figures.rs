@@ -90,8 +90,7 @@ fn data_files_have_headers_with_units_and_the_rows_of_what_is_drawn() {
                 // Estimates of one x differ; their errors are in the next column, not again below.
                 assert!(seen.insert(&row[..3]), "{}: {row:?} twice", file.name);
             }
-            let known = rows.insert(&file.name, &file.rows);
-            assert!(known.is_none(), "{} twice", file.name);
+            assert!(rows.insert(&file.name, &file.rows).is_none(), "{} twice", file.name);
         }
     }
     for (name, expected) in [

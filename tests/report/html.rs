@@ -1,35 +1,24 @@
 //! Reads the pages by an XML parser, with the results of the quick profile.
 
 use super::QUICK;
-use literate::report::Files;
+use literate::report;
 use roxmltree::{Document, Node, ParsingOptions};
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::LazyLock;
-
-static PAGES: LazyLock<BTreeMap<&str, String>> = LazyLock::new(|| {
-    let page_text = |page: &str| String::from_utf8(QUICK.report[page].clone()).unwrap();
-    let documents = QUICK.paper.edition.documents.iter();
-    documents.map(|document| (document.page, page_text(document.page))).collect()
-});
 
 fn parsed(text: &str) -> Document<'_> {
     let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
     Document::parse_with_options(text, options).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn page(name: &str) -> Document<'static> {
-    parsed(&PAGES[name])
-}
-
-fn pages() -> impl Iterator<Item = (&'static str, Document<'static>)> {
-    PAGES.keys().map(|name| (*name, page(name)))
+fn pages() -> impl Iterator<Item = (&'static report::Document, Document<'static>)> {
+    let documents = QUICK.paper.edition.documents.iter();
+    documents.map(|document| (document, parsed(QUICK.text(document.page))))
 }
 
 /// A card: title, first line, and which rows it has.
 type Card = (String, String, Vec<usize>);
 
-fn cards(report: &Files) -> (Vec<String>, BTreeMap<String, Card>) {
-    let script = std::str::from_utf8(&report["cards.js"]).unwrap();
+fn cards(script: &str) -> (Vec<String>, BTreeMap<String, Card>) {
     let json = script.strip_prefix("CARDS = ").and_then(|script| script.strip_suffix(";\n"));
     serde_json::from_str(json.unwrap()).unwrap()
 }
@@ -42,45 +31,35 @@ fn words(node: Node<'_, '_>) -> String {
     node.descendants().filter(Node::is_text).filter_map(|text| text.text()).collect()
 }
 
+/// The links and places of a page, or of all cards.
+fn links(text: &str) -> [Vec<String>; 2] {
+    let cards = text.starts_with("CARDS").then(|| format!("<p>{}</p>", cards(text).0.concat()));
+    let page = parsed(cards.as_deref().unwrap_or(text));
+    let attributes = |name| page.descendants().filter_map(move |node| node.attribute(name));
+    let links = attributes("href").chain(attributes("src")).filter(|to| !to.starts_with("data:"));
+    [links.map(String::from).collect(), attributes("id").map(String::from).collect()]
+}
+
 #[test]
 fn every_link_lands_wherever_the_report_is_written() {
-    let links = |html: &str| {
-        let page = parsed(html);
-        let attributes =
-            |name| page.descendants().filter_map(move |n| n.attribute(name)).map(String::from);
-        let links =
-            attributes("href").chain(attributes("src")).filter(|to| !to.starts_with("data:"));
-        (links.collect(), attributes("id").collect())
-    };
-    super::links_land(
-        |report| {
-            let page = |of: &literate::report::Document| {
-                let html = std::str::from_utf8(&report[of.page]).unwrap();
-                (of.page.to_string(), links(html))
-            };
-            let cards = format!("<p>{}</p>", cards(report).0.concat());
-            let cards = ("cards.js".to_string(), links(&cards));
-            QUICK.paper.edition.documents.iter().map(page).chain([cards]).collect()
-        },
-        500,
-        150,
-    );
+    let pages = QUICK.paper.edition.documents.iter().map(|document| document.page);
+    super::links_land(pages.chain(["cards.js"]).collect(), links, 500, 150);
 }
 
 #[test]
 fn every_value_has_one_card() {
-    let (rows, cards) = cards(&QUICK.report);
+    let (rows, cards) = cards(QUICK.text("cards.js"));
     let (mut shown, mut asked) = (0, BTreeSet::new());
-    for (name, page) in pages() {
+    for (document, page) in pages() {
         for value in page.descendants().filter(|node| node.attribute("data-card").is_some()) {
             shown += 1;
             asked.insert(value.attribute("data-card").unwrap().to_string());
-            assert!(!words(value).trim().is_empty(), "{name}");
+            assert!(!words(value).trim().is_empty(), "{}", document.page);
             assert!(value.ancestors().all(|outer| outer.tag_name().name() != "math"));
         }
     }
-    let have: BTreeSet<String> = cards.keys().cloned().collect();
-    assert_eq!(asked, have, "a card without a number, or a number without its card");
+    // A card without a number, or a number without its card.
+    assert_eq!(asked, cards.keys().cloned().collect());
     assert!(shown > 500, "{shown}");
     assert_eq!(rows.iter().collect::<BTreeSet<_>>().len(), rows.len(), "a row twice");
     // A path of an item that leads to no file was renamed or misspelt.
@@ -94,7 +73,7 @@ fn every_value_has_one_card() {
         assert!(html.contains(part), "{part:?} is not in {html:?}");
     }
     // The headline number stands in an equation, and opens there too.
-    let page = page("report.html");
+    let page = parsed(QUICK.text("report.html"));
     let headline = |node: &Node<'_, '_>| {
         node.attribute("data-card") == Some("sweep.rise.half_height")
             && node.ancestors().any(|outer| outer.attribute("class") == Some("equation"))
@@ -102,8 +81,7 @@ fn every_value_has_one_card() {
     assert!(page.descendants().any(|node| headline(&node)));
 }
 
-/// Colours of what is drawn come from the style sheet, which knows light from dark. (The browser
-/// finds what is loaded, and pages that are too long.)
+/// Colours of what is drawn come from the style sheet, which knows light from dark.
 #[test]
 fn no_colour_is_fixed() {
     for (_, page) in pages() {
@@ -120,14 +98,13 @@ fn no_colour_is_fixed() {
 
 #[test]
 fn every_page_says_how_to_cite_it() {
-    for (name, page) in pages() {
+    for (document, page) in pages() {
         let title = words(elements(&page, "title")[0]);
         let boxes = elements(&page, "details").into_iter();
         let boxes: Vec<_> = boxes.filter(|node| node.attribute("class") == Some("cite")).collect();
-        let [cite] = boxes[..] else { panic!("{name}: {} boxes", boxes.len()) };
+        let [cite] = boxes[..] else { panic!("{} boxes", boxes.len()) };
         let entry = words(cite);
-        let here = QUICK.paper.edition.documents.iter().find(|of| of.page == name).unwrap();
-        assert!(entry.contains(&format!("@misc{{impactpaper2026{},", here.prose)), "{entry}");
+        assert!(entry.contains(&format!("@misc{{impactpaper2026{},", document.prose)), "{entry}");
         let authors: Vec<_> =
             QUICK.paper.edition.authors.iter().map(|(author, _)| *author).collect();
         assert!(authors.iter().all(|author| entry.contains(author)), "{entry}");
@@ -139,14 +116,14 @@ fn every_page_says_how_to_cite_it() {
         };
         assert_eq!(contents("citation_title"), [title.as_str()]);
         assert_eq!(contents("citation_author"), authors);
-        assert!(entry.contains(&format!("title  = {{{title}}}")), "{name}: {entry}");
+        assert!(entry.contains(&format!("title  = {{{title}}}")), "{entry}");
         assert!(entry.contains(concat!("impact-paper ", env!("CARGO_PKG_VERSION"))), "{entry}");
     }
 }
 
 #[test]
 fn equations_are_mathml() {
-    let page = page("report.html");
+    let page = parsed(QUICK.text("report.html"));
     assert!(elements(&page, "math").len() > 300);
     assert!(elements(&page, "merror").is_empty());
     let text_nodes = page.descendants().filter(Node::is_text);

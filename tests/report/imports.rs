@@ -1,10 +1,10 @@
 //! Reads all imports, and refuses those that DESIGN.md does not allow, and circles.
 
 use super::QUICK;
-use super::structure::{files, root};
-use std::cell::RefCell;
+use proc_macro2::{TokenStream, TokenTree};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
+use std::path::Path;
 
 /// Crates by the names of their libraries, and the folders of their source.
 const CRATES: [(&str, &str); 8] = [
@@ -19,187 +19,123 @@ const CRATES: [(&str, &str); 8] = [
     ("main", "src/main"),
 ];
 
-fn is_name(word: &str) -> bool {
-    word.starts_with(|c: char| c.is_alphabetic() || c == '_')
-}
-
-/// Splits Rust into words, signs and `::`, without comments, texts and characters.
-fn tokens(text: &str) -> Vec<String> {
-    let is_word = |c: char| c.is_alphanumeric() || c == '_';
-    let (mut tokens, mut rest) = (Vec::new(), text);
-    while let Some(c) = rest.chars().next() {
-        let behind = |begin: usize, end: &str| {
-            rest[begin..].find(end).map_or(rest.len(), |offset| begin + offset + end.len())
-        };
-        let after: Vec<char> = rest.chars().skip(1).take(2).collect();
-        let (length, is_token) = match (c, &after[..]) {
-            ('/', ['/', ..]) => (behind(2, "\n"), false),
-            ('r', ['"', ..]) => (behind(2, "\""), false),
-            ('r', ['#', '"']) => (behind(3, "\"#"), false),
-            ('"', _) => {
-                let mut signs = rest.char_indices().skip(1);
-                let end = loop {
-                    match signs.next() {
-                        Some((_, '\\')) => drop(signs.next()),
-                        Some((offset, '"')) => break offset + 1,
-                        Some(_) => (),
-                        None => break rest.len(),
-                    }
-                };
-                (end, false)
-            }
-            ('\'', ['\\', _]) => (behind(3, "'"), false),
-            ('\'', [one, '\'']) => (2 + one.len_utf8(), false),
-            (':', [':', ..]) => (2, true),
-            (c, _) if is_word(c) => (rest.find(|c| !is_word(c)).unwrap_or(rest.len()), true),
-            (c, _) => (c.len_utf8(), !c.is_whitespace()),
-        };
-        tokens.extend(is_token.then(|| rest[..length].to_string()));
-        rest = &rest[length..];
+/// The name or sign at a place; empty for groups, literals, and behind the end.
+fn word(trees: &[TokenTree], place: usize) -> String {
+    match trees.get(place) {
+        Some(tree @ (TokenTree::Ident(_) | TokenTree::Punct(_))) => tree.to_string(),
+        _ => String::new(),
     }
-    tokens
 }
 
-/// The place behind the item that begins here: behind its `;`, or behind its braces.
-fn behind_item(tokens: &[String], begin: usize) -> usize {
-    let ends_in_brace = tokens[begin..].iter().take(4).all(|token| token != "use");
-    let mut depth = 0;
-    for (i, token) in tokens.iter().enumerate().skip(begin) {
-        match token.as_str() {
-            "(" | "[" | "{" => depth += 1,
-            ")" | "]" => depth -= 1,
-            "}" => {
-                depth -= 1;
-                if depth == 0 && ends_in_brace {
-                    return i + 1;
-                }
-            }
-            ";" if depth == 0 => return i + 1,
-            _ => (),
-        }
-    }
-    tokens.len()
-}
-
-type Path = Vec<String>;
+/// A path of modules.
+type Place = Vec<String>;
 
 /// What a module has: names of items and of imports with what they name, and all paths.
 #[derive(Default)]
 struct Module {
     file: String,
     items: BTreeSet<String>,
-    imports: BTreeMap<String, Path>,
-    globs: Vec<Path>,
-    paths: Vec<Path>,
+    imports: BTreeMap<String, Place>,
+    globs: Vec<Place>,
+    paths: Vec<Place>,
 }
 
 /// All modules, by their paths, of which the first part is the name of the crate.
 #[derive(Default)]
 struct Modules {
-    all: BTreeMap<Path, Module>,
-    /// What names mean that were looked up before, or are being looked up.
-    known: RefCell<BTreeMap<Path, Option<Found>>>,
+    all: BTreeMap<Place, Module>,
 }
 
 impl Modules {
-    fn read(&mut self, path: Path, file: &str, tokens: &[String]) {
+    fn read(&mut self, path: &[String], file: &str, tokens: TokenStream) {
         let mut module = Module { file: file.into(), ..Module::default() };
-        let (mut i, mut depth) = (0, 0);
-        while i < tokens.len() {
-            let next = |n: usize| tokens.get(i + n).map_or("", String::as_str);
-            match next(0) {
-                "{" => depth += 1,
-                "}" => depth -= 1,
-                "use" if next(1) != "<" => i = import(tokens, i + 1, &mut Vec::new(), &mut module),
-                "mod" if depth == 0 && next(2) == "{" => {
-                    let end = behind_item(tokens, i);
-                    let child = [path.clone(), vec![next(1).into()]].concat();
-                    self.read(child, file, &tokens[i + 3..end - 1]);
-                    i = end - 1;
+        self.collect(path, tokens, true, &mut module);
+        let known = self.all.entry(path.to_vec()).or_default();
+        module.imports.append(&mut known.imports);
+        *known = module;
+    }
+
+    /// Reads the tokens of a module, or, not at its top, those between brackets.
+    fn collect(&mut self, path: &[String], tokens: TokenStream, top: bool, module: &mut Module) {
+        let trees: Vec<TokenTree> = tokens.into_iter().collect();
+        let (mut i, sign) = (0, |place: usize| word(&trees, place));
+        while let Some(tree) = trees.get(i) {
+            match (sign(i).as_str(), tree, trees.get(i + 2)) {
+                ("use", ..) if sign(i + 1) != "<" => i = import(&trees, i + 1, &[], module),
+                ("mod", _, Some(TokenTree::Group(items))) if top => {
+                    let child = [path, &[sign(i + 1)]].concat();
+                    self.read(&child, &module.file, items.stream());
+                    i += 2;
                 }
-                "fn" | "struct" | "enum" | "const" | "static" | "type" | "trait" | "union"
-                    if depth == 0 =>
-                {
-                    module.items.insert(next(1).into());
+                (
+                    "fn" | "struct" | "enum" | "const" | "static" | "type" | "trait" | "union",
+                    ..,
+                ) if top => {
+                    module.items.insert(sign(i + 1));
                 }
-                "macro_rules" => {
+                ("macro_rules", ..) => {
                     // A macro that is exported has its place at the top of the crate.
-                    let inside = [&["crate".to_string()], &path[1..], &[next(2).into()]].concat();
-                    let top = self.all.entry(path[..1].to_vec()).or_default();
-                    top.imports.insert(next(2).into(), inside);
-                    module.items.insert(next(2).into());
+                    let name = sign(i + 2);
+                    let inside = [&["crate".to_string()], &path[1..], &[name.clone()]].concat();
+                    let whole_crate = self.all.entry(path[..1].to_vec()).or_default();
+                    whole_crate.imports.insert(name.clone(), inside);
+                    module.items.insert(name);
                 }
-                word if is_name(word) => {
-                    let follows = i > 0 && ["::", "."].contains(&tokens[i - 1].as_str());
-                    let mut whole = vec![word.to_string()];
-                    while tokens.get(i + 1).is_some_and(|token| token == "::")
-                        && tokens.get(i + 2).is_some_and(|token| is_name(token))
+                (_, TokenTree::Group(group), _) => {
+                    self.collect(path, group.stream(), false, module);
+                }
+                (name, TokenTree::Ident(_), _) => {
+                    let mut whole = vec![name.to_string()];
+                    while sign(i + 1) + &sign(i + 2) == "::"
+                        && matches!(trees.get(i + 3), Some(TokenTree::Ident(_)))
                     {
-                        whole.push(tokens[i + 2].clone());
-                        i += 2;
+                        whole.push(sign(i + 3));
+                        i += 3;
                     }
-                    let calls = tokens.get(i + 1).is_some_and(|token| token == "(");
-                    let is_variable = whole.len() == 1 && word.starts_with(char::is_lowercase);
-                    if !follows && (calls || !is_variable) {
-                        module.paths.push(whole);
-                    }
+                    module.paths.push(whole);
                 }
                 _ => (),
             }
             i += 1;
         }
-        let known = self.all.entry(path).or_default();
-        module.imports.append(&mut known.imports);
-        *known = module;
     }
 
-    fn resolve(&self, from: &[String], path: &[String]) -> Option<Found> {
-        let Some((first, rest)) = path.split_first() else {
+    /// Finds what a path names; circles of imports end after some steps.
+    fn resolve(&self, from: &[String], path: &[String], steps: usize) -> Option<Found> {
+        let Some((name, rest)) = path.split_first() else {
             return Some(Found::Module(from.to_vec()));
         };
-        match first.as_str() {
-            "crate" => self.resolve(&from[..1], rest),
-            "self" => self.resolve(from, rest),
-            "super" => self.resolve(&from[..from.len() - 1], rest),
-            name => match self.named(from, name)? {
-                Found::Module(inside) => self.resolve(&inside, rest),
-                item => Some(item),
+        let inside = match name.as_str() {
+            "crate" => from[..1].to_vec(),
+            "self" => from.to_vec(),
+            "super" => from[..from.len() - 1].to_vec(),
+            _ => match self.named(from, name, steps.checked_sub(1)?)? {
+                Found::Module(inside) => inside,
+                item => return Some(item),
             },
-        }
+        };
+        self.resolve(&inside, rest, steps)
     }
 
-    fn named(&self, from: &[String], name: &str) -> Option<Found> {
-        let child = [from, &[name.to_string()]].concat();
-        if let Some(meaning) = self.known.borrow().get(&child) {
-            return meaning.clone();
-        }
-        self.known.borrow_mut().insert(child.clone(), None);
-        let meaning = self.look_up(from, name, &child);
-        self.known.borrow_mut().insert(child, meaning.clone());
-        meaning
-    }
-
-    fn look_up(&self, from: &[String], name: &str, child: &[String]) -> Option<Found> {
+    fn named(&self, from: &[String], name: &String, steps: usize) -> Option<Found> {
         let module = self.all.get(from)?;
-        if self.all.contains_key(child) {
-            return Some(Found::Module(child.to_vec()));
+        let child = [from, std::slice::from_ref(name)].concat();
+        if self.all.contains_key(&child) {
+            return Some(Found::Module(child));
         }
         if module.items.contains(name) {
             return Some(Found::Item(module.file.clone()));
         }
-        let imported = module.imports.get(name).filter(|path| path[..] != [name.to_string()]);
-        if let Some(path) = imported {
-            return self.resolve(from, path);
+        if let Some(path) = module.imports.get(name).filter(|path| path[..] != [name.clone()]) {
+            return self.resolve(from, path, steps);
         }
-        for glob in &module.globs {
-            if let Some(Found::Module(inside)) = self.resolve(from, glob)
-                && let Some(found) = self.resolve(&inside, &[name.to_string()])
-            {
-                return Some(found);
-            }
-        }
-        let is_crate = CRATES.iter().any(|(known, _)| *known == name);
-        is_crate.then(|| Found::Module(vec![name.to_string()]))
+        let by_glob = |glob: &Place| match self.resolve(from, glob, steps.checked_sub(1)?)? {
+            Found::Module(inside) => self.named(&inside, name, steps - 1),
+            Found::Item(_) => None,
+        };
+        let is_crate = CRATES.iter().any(|(known, _)| known == name);
+        let by_crate = || is_crate.then(|| Found::Module(vec![name.clone()]));
+        module.globs.iter().find_map(by_glob).or_else(by_crate)
     }
 }
 
@@ -207,47 +143,41 @@ impl Modules {
 #[derive(Clone)]
 enum Found {
     Item(String),
-    Module(Path),
+    Module(Place),
 }
 
-/// Reads what an import names, from behind `use`, and returns the place of its end.
-fn import(tokens: &[String], begin: usize, before: &mut Path, module: &mut Module) -> usize {
-    let (mut i, depth) = (begin, before.len());
+/// Reads what an import names, of which a part was read before, and returns the place behind it.
+fn import(trees: &[TokenTree], mut i: usize, before: &[String], module: &mut Module) -> usize {
+    let mut path = before.to_vec();
     loop {
-        match tokens[i].as_str() {
-            "{" => {
-                i += 1;
-                while tokens[i] != "}" {
-                    i = import(tokens, i, &mut before.clone(), module);
-                    i += usize::from(tokens[i] == ",");
+        match (word(trees, i).as_str(), trees.get(i)) {
+            (_, Some(TokenTree::Group(group))) => {
+                let inner: Vec<TokenTree> = group.stream().into_iter().collect();
+                let mut place = 0;
+                while place < inner.len() {
+                    place = import(&inner, place, &path, module) + 1;
                 }
-                i += 1;
-                before.truncate(depth);
-                return i;
-            }
-            "*" => {
-                module.globs.push(before.clone());
                 return i + 1;
             }
-            "::" => i += 1,
-            ";" | "," | "}" => break,
-            "as" => {
-                module.imports.insert(tokens[i + 1].clone(), before.clone());
-                module.paths.push(before.clone());
+            ("*", _) => {
+                module.globs.push(path);
+                return i + 1;
+            }
+            ("as", _) => {
+                module.imports.insert(word(trees, i + 1), path.clone());
+                module.paths.push(path);
                 return i + 2;
             }
-            word => {
-                before.push(word.to_string());
-                i += 1;
-            }
+            ("" | "," | ";", _) => break,
+            (":", _) => (),
+            (name, _) => path.push(name.into()),
         }
+        i += 1;
     }
-    if before.last().is_some_and(|last| last == "self") {
-        before.pop();
-    }
-    if let Some(last) = before.last() {
-        module.imports.insert(last.clone(), before.clone());
-        module.paths.push(before.clone());
+    path.pop_if(|last| last == "self");
+    if let Some(last) = path.last() {
+        module.imports.insert(last.clone(), path.clone());
+        module.paths.push(path);
     }
     i
 }
@@ -255,11 +185,13 @@ fn import(tokens: &[String], begin: usize, before: &mut Path, module: &mut Modul
 /// Which files each file imports, by the item that a name resolves to.
 fn arrows() -> BTreeMap<String, BTreeSet<String>> {
     let mut modules = Modules::default();
-    for (name, folder) in CRATES.iter().filter(|(name, _)| *name != "main") {
-        for (file, text) in files(folder, &[".rs"]) {
-            let inside = file[folder.len() + 1..].trim_end_matches(".rs");
+    for (library, folder) in CRATES.iter().filter(|(library, _)| *library != "main") {
+        let sources = crate::tree(Path::new(folder)).into_iter();
+        for (name, text) in sources.filter(|(name, _)| name.ends_with(".rs")) {
+            let (file, inside) = (format!("{folder}/{name}"), name.trim_end_matches(".rs"));
+            let text = String::from_utf8(text).unwrap();
             let is_program = *folder == "src" && (inside == "main" || inside.starts_with("cli"));
-            let mut path = vec![if is_program { "main" } else { name }.to_string()];
+            let mut path = vec![if is_program { "main" } else { library }.to_string()];
             path.extend(inside.split('/').map(String::from));
             if ["lib", "main", "mod"].contains(&path.last().unwrap().as_str()) {
                 path.pop();
@@ -267,7 +199,7 @@ fn arrows() -> BTreeMap<String, BTreeSet<String>> {
             if !path.contains(&"tests".to_string()) {
                 // Clippy refuses code behind such a module.
                 let code = text.split("#[cfg(test)]\nmod tests").next().unwrap();
-                modules.read(path, &file, &tokens(code));
+                modules.read(&path, &file, code.parse().unwrap());
             }
         }
     }
@@ -275,7 +207,7 @@ fn arrows() -> BTreeMap<String, BTreeSet<String>> {
     for (path, module) in &modules.all {
         let globs = module.globs.iter().map(|glob| (glob, true));
         for (used, is_glob) in module.paths.iter().map(|path| (path, false)).chain(globs) {
-            let imported = match modules.resolve(path, used) {
+            let imported = match modules.resolve(path, used, 9) {
                 Some(Found::Item(file)) => file,
                 Some(Found::Module(imported)) if is_glob => modules.all[&imported].file.clone(),
                 _ => continue,
@@ -306,7 +238,7 @@ fn no_file_imports_itself_through_others() {
 
 /// The layers of DESIGN.md: how the paths of their files begin, and what they may import.
 fn layers() -> Vec<(String, Vec<String>)> {
-    let design = fs::read_to_string(root().join("DESIGN.md")).unwrap();
+    let design = fs::read_to_string("DESIGN.md").unwrap();
     let mut layers = Vec::new();
     for line in design.lines().filter(|line| line.starts_with("    ")) {
         let Some((names, used)) = line.split_once('←') else { continue };
@@ -345,8 +277,7 @@ fn imports_are_those_of_the_drawing() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// What is apart, and the code of one experiment, changes no other result: nothing that counts for
-/// a saved result imports it.
+/// Code that is apart, or another experiment's own, must not change a saved result.
 #[test]
 fn nothing_that_counts_for_a_result_imports_what_does_not() {
     let (project, experiments) = (&QUICK.paper.project, &QUICK.paper.experiments);

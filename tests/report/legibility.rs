@@ -71,7 +71,7 @@ fn cut(picture: &Picture) -> Vec<String> {
     let is_cut = |[left, right, top, bottom]: [f64; 4]| {
         left < 0.0 || right > width || top < 0.0 || bottom > height
     };
-    let labels = picture.labels.iter().filter(|l| is_cut([l.x.0, l.x.1, l.y.0, l.y.1]));
+    let labels = picture.labels.iter().filter(|l| is_cut(l.bounds));
     let shapes = picture.shapes.iter().filter(|s| is_cut(bounds(&s.strokes.concat())));
     labels.map(|l| l.words.clone()).chain(shapes.map(|s| s.series.clone())).collect()
 }
@@ -80,8 +80,7 @@ fn cut(picture: &Picture) -> Vec<String> {
 fn overlaps(picture: &Picture) -> Vec<String> {
     let mut found = Vec::new();
     for (i, label) in picture.labels.iter().enumerate() {
-        let mut others = picture.labels[i + 1..].iter();
-        let other = others.find(|b| label.meets([b.x.0, b.x.1, b.y.0, b.y.1]));
+        let other = picture.labels[i + 1..].iter().find(|other| label.meets(other.bounds));
         found.extend(other.map(|other| format!("{label:?} on {other:?}")));
         let meets = |shape: &&Shape| {
             let passes = |pair: &[(f64, f64)]| {

@@ -1,4 +1,4 @@
-//! Makes the report in memory, and tests it and what it is made of.
+//! Tests the report that the program made, and what it is made of.
 
 mod damage;
 mod documents;
@@ -14,8 +14,7 @@ use impact_paper::claims::Published;
 use impact_paper::experiments::{ALL, AnyExperiment, Progress, Results, Session, Store};
 use impact_paper::params::Profile;
 use literate::figures::Figure;
-use literate::report::{Document, Files};
-use literate::{Paper, Templates, make_report};
+use literate::{Paper, Templates};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::LazyLock;
@@ -25,9 +24,6 @@ struct Quick {
     templates: Templates,
     published: Published,
     figures: Vec<Figure>,
-    report: Files,
-    /// The same as it is written into a folder of target/.
-    below: Files,
     results: Results,
 }
 
@@ -45,29 +41,29 @@ impl Quick {
         self.paper.results(needs, &session(&self.paper, saved.path())).unwrap()
     }
 
-    fn markdown(&self, document: &Document) -> &str {
-        std::str::from_utf8(&self.report[document.markdown]).unwrap()
+    /// A file of the report.
+    fn text(&self, name: &str) -> &'static str {
+        std::str::from_utf8(&crate::QUICK.below[name]).unwrap()
     }
 
-    /// The prose of a document before it is filled.
-    fn prose(&self, document: &Document) -> String {
-        let texts =
-            document.files(&self.templates).into_iter().map(|path| self.templates.text(path));
-        texts.map(Result::unwrap).collect::<Vec<_>>().join("\n\n")
+    /// The prose of all documents before it is filled.
+    fn all_prose(&self) -> String {
+        let documents = self.paper.edition.documents.iter();
+        let paths = documents.flat_map(|document| document.files(&self.templates));
+        paths.map(|path| self.templates.text(path).unwrap().to_owned() + "\n\n").collect()
     }
 }
 
-/// Links and places of each file.
-type Links = BTreeMap<String, (Vec<String>, Vec<String>)>;
-
-/// Follows the links of files in a report that is written into paper/, into a folder of target/,
-/// and where no checkout is; so many at least lead within a file, and from one to another.
-fn links_land(files: impl Fn(&Files) -> Links, least: usize, across: usize) {
-    let alone = &crate::QUICK.report;
-    for (report, top) in [(&QUICK.report, "../"), (&QUICK.below, "../../"), (alone, "none")] {
-        let files = files(report);
+/// Follows the links of files in a report that is written into a folder of target/, and where no
+/// checkout is; so many at least lead within a file, and from one to another. `read` returns the
+/// links and places of a text.
+fn links_land(names: Vec<&str>, read: fn(&str) -> [Vec<String>; 2], least: usize, across: usize) {
+    let made = &crate::QUICK;
+    for (report, top) in [(&made.below, "../../"), (&made.report, "none")] {
+        let text = |name: &str| std::str::from_utf8(&report[name]).unwrap();
+        let files: BTreeMap<&str, _> = names.iter().map(|name| (*name, read(text(name)))).collect();
         let (mut inside, mut outside, mut up) = (0, 0, 0);
-        for (name, (links, places)) in &files {
+        for (name, [links, places]) in &files {
             let distinct: BTreeSet<_> = places.iter().collect();
             assert_eq!(distinct.len(), places.len(), "{name}: a place stands twice");
             for link in links.iter().filter(|link| !link.contains("://")) {
@@ -80,9 +76,9 @@ fn links_land(files: impl Fn(&Files) -> Links, least: usize, across: usize) {
                 let to = if file.is_empty() { name } else { file };
                 assert!(report.contains_key(to) || to == "data", "{name}: no {link}");
                 if !id.is_empty() {
-                    inside += usize::from(to == name);
-                    outside += usize::from(to != name);
-                    assert!(files[to].1.iter().any(|place| place == id), "{name}: no {link}");
+                    inside += usize::from(to == *name);
+                    outside += usize::from(to != *name);
+                    assert!(files[to][1].iter().any(|place| place == id), "{name}: no {link}");
                 }
             }
         }
@@ -97,13 +93,7 @@ static QUICK: LazyLock<Quick> = LazyLock::new(|| {
     let session = session(&paper, saved.path());
     let results = paper.results(ALL, &session).unwrap();
     let published = paper.published(&session).unwrap();
-    let figures: Vec<_> =
-        paper.figures.iter().map(|figure| figure.figure(&results).unwrap()).collect();
-    let made = |out: &str| {
-        let made = make_report(&paper, &session, Path::new(out));
-        made.unwrap_or_else(|failure| panic!("{}", failure.message)).0
-    };
-    let [report, below] = ["paper", "target/paper-quick"].map(made);
+    let figures = paper.figures.iter().map(|figure| figure.figure(&results).unwrap()).collect();
     let templates = session.templates.clone();
-    Quick { paper: impact_paper::paper(), templates, published, figures, report, below, results }
+    Quick { paper: impact_paper::paper(), templates, published, figures, results }
 });

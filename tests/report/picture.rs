@@ -38,13 +38,13 @@ fn strokes(d: &str) -> Vec<Vec<(f64, f64)>> {
     strokes
 }
 
-/// A label: its words, its colour, its box on the sheet, and the size of its smallest letters.
+/// A label: its words, its colour, its box on the sheet (left, right, top, bottom), and the size of
+/// its smallest letters.
 #[derive(Debug)]
 pub struct Label {
     pub words: String,
     pub colour: String,
-    pub x: (f64, f64),
-    pub y: (f64, f64),
+    pub bounds: [f64; 4],
     pub size: f64,
 }
 
@@ -73,18 +73,19 @@ impl Label {
         }
         let along = (extent.0 * scale, extent.1 * scale);
         let across = (base * scale, (base + 640.0) * scale);
-        let (x, y) = if inner(transform, "rotate").is_some() {
-            ((at[0] - across.1, at[0] - across.0), (at[1] - along.1, at[1] - along.0))
+        let bounds = if inner(transform, "rotate").is_some() {
+            [at[0] - across.1, at[0] - across.0, at[1] - along.1, at[1] - along.0]
         } else {
-            ((at[0] + along.0, at[0] + along.1), (at[1] - across.1, at[1] - across.0))
+            [at[0] + along.0, at[0] + along.1, at[1] - across.1, at[1] - across.0]
         };
         let words = group.attribute("aria-label").unwrap().to_string();
         let colour = group.attribute("class").unwrap().replace("fill-", "");
-        Label { words, colour, x, y, size: 1000.0 * scale * least }
+        Label { words, colour, bounds, size: 1000.0 * scale * least }
     }
 
     pub fn meets(&self, [left, right, top, bottom]: [f64; 4]) -> bool {
-        left < self.x.1 && right > self.x.0 && top < self.y.1 && bottom > self.y.0
+        let [least_x, largest_x, least_y, largest_y] = self.bounds;
+        left < largest_x && right > least_x && top < largest_y && bottom > least_y
     }
 }
 
@@ -157,15 +158,14 @@ impl Picture {
 
 /// All pictures: of the quick profile, and those that are committed.
 pub fn pictures() -> Vec<Picture> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("paper");
-    let documents = QUICK.report.iter().filter(|(name, _)| name.ends_with(".md"));
-    let prose: String = documents.map(|(_, text)| String::from_utf8_lossy(text)).collect();
+    let documents = QUICK.paper.edition.documents.iter();
+    let prose: String = documents.map(|document| QUICK.text(document.markdown)).collect();
     let both = QUICK.figures.iter().flat_map(|figure| {
         let name = format!("figures/{}.svg", figure.id);
         let before = prose.split_once(&format!("]({name})")).map(|parts| parts.0);
         let caption = before.and_then(|text| text.rsplit_once("![")).map_or("", |parts| parts.1);
         let words = format!("{} {caption}", figure.description.text);
-        let committed = std::fs::read_to_string(folder.join(name)).unwrap();
+        let committed = std::fs::read_to_string(Path::new("paper").join(name)).unwrap();
         [figure.svg(), committed].map(|svg| Picture::of(&figure.id, &svg, words.clone()))
     });
     both.collect()

@@ -104,8 +104,7 @@ mod tests {
     use super::*;
     use crate::search::clock::Instant;
 
-    /// Outer gaps press with 1 each on one that accelerates by 2, within rounding: 5 · 8 ε of 2,
-    /// and four times that among 32 gaps.
+    /// Outer gaps press with 1 each on one that accelerates by 2, but for 5 · 8 ε, or 20 · 8 ε.
     #[test]
     fn an_acceleration_by_rounding_shuts_no_gap() {
         let frequencies = Frequencies::new(1.0, [2.0]);

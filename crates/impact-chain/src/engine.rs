@@ -231,8 +231,7 @@ mod tests {
         }
     }
 
-    /// A mass that starts on the wall and hits it is alone, also where its other gap waits long or
-    /// is shut at rest. Two gaps that close at the start are simultaneous, and both are counted.
+    /// Two gaps that close at the start are simultaneous, and both are counted; one is alone.
     #[test]
     fn impacts_at_the_start_are_simultaneous_with_impacts_alone() {
         let starts: [(&[[f64; 2]], u64, u64); 4] = [
@@ -249,8 +248,7 @@ mod tests {
         }
     }
 
-    /// Mass 1 turns 1e-10 before the wall, a gap that waits without a search, when mass 2 hits it:
-    /// it goes on to the wall from where it was, not from a past frame.
+    /// Mass 2 hits mass 1, whose gap waits without a search 1e-10 before the wall: no past frame.
     #[test]
     fn a_gap_that_waits_long_is_where_its_masses_are() {
         let (amplitude, phase) = (1.0 - 1e-10, 1.0_f64);

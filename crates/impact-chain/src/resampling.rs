@@ -146,8 +146,7 @@ impl Resampled {
 mod tests {
     use super::*;
 
-    /// Of 1000 resamples, 25 lie at 3 beside 30 below and 15 above 7: at most 2.5 % are cut off at
-    /// either end.
+    /// Of 1000 resamples at most 2.5 % are cut off at either end.
     #[test]
     fn the_interval_of_the_mode_by_hand() {
         let modes = [(1, 30), (3, 25), (5, 900), (7, 30), (9, 15)];
@@ -158,8 +157,7 @@ mod tests {
         assert_eq!([0, 1].map(|row| resampled.mode_interval(row)), [Some([1, 7]), None]);
     }
 
-    /// The bootstrap error of a mean is s √((n − 1)/n)/√n, here √(8.25/10) for 1 to 10, to 2 % with
-    /// 1000 resamples.
+    /// The bootstrap error of a mean is s √((n − 1)/n)/√n, here √(8.25/10) for 1 to 10.
     #[test]
     fn errors_of_means_are_the_known_ones() {
         let counts: Vec<Option<u32>> = (1..=10).map(Some).collect();

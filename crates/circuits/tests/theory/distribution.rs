@@ -37,31 +37,19 @@ pub fn weights(space: SampleSpace, big_n: usize, p: f64) -> Vec<Big> {
         .collect()
 }
 
-fn sum<'a>(values: impl IntoIterator<Item = &'a Big>) -> Big {
-    values.into_iter().fold(int(0), |s, v| s + v)
-}
-
 /// The index (from 1) of the first largest value.
 fn first_largest(values: &[Big]) -> usize {
-    let mut best = 0;
-    for (i, value) in values.iter().enumerate() {
-        if *value > values[best] {
-            best = i;
-        }
-    }
-    best + 1
+    1 + (0..values.len()).fold(0, |best, i| if values[i] > values[best] { i } else { best })
 }
-
-const SPACES: [SampleSpace; 3] = [Simple, FiveClasses, FiveClassesPrinted];
 
 #[test]
 fn probabilities_mean_and_mode_agree_with_direct_sums() {
-    for space in SPACES {
+    for space in [Simple, FiveClasses, FiveClassesPrinted] {
         for big_n in [1, 2, 3, 4, 5, 7, 12, 100, 171] {
             for p in [1e-12, 1e-3, 0.005, 0.01, 0.015, 0.02, 0.1, 0.5, 0.75, 1.0] {
                 let law = Law::new(space, big_n, p).unwrap();
                 let weights = weights(space, big_n, p);
-                let total = sum(&weights);
+                let total = weights.iter().fold(int(0), |sum, weight| sum + weight);
                 let case = format!("{space:?} N = {big_n} p = {p}");
                 if space != Simple {
                     let parts = CLASSES.map(|class| law.contribution(&class));

@@ -34,20 +34,28 @@ fn p_jump_by_roots(big_n: usize) -> (Big, usize) {
     (exp(log), k)
 }
 
+/// The jump, whose bracket are neighbours between which k* leaves 1.
+fn bracketed(space: SampleSpace, big_n: usize) -> jump::Jump {
+    let leap = jump::p_jump(space, big_n).unwrap();
+    let [below, above] = leap.bracket;
+    assert_eq!(below.next_up(), above);
+    assert!(leap.p == below || leap.p == above);
+    let k_star = |p| Law::new(space, big_n, p).unwrap().k_star();
+    assert_eq!((k_star(below), k_star(above)), (1, leap.k_after), "{space:?} N = {big_n}");
+    leap
+}
+
 #[test]
 fn jump_agrees_with_roots_of_exact_integers() {
     for big_n in [4, 5, 6, 10, 50, 100, 101, 171, 400] {
         let (exact, k) = p_jump_by_roots(big_n);
-        let ours = jump::p_jump(Simple, big_n).unwrap();
+        let ours = bracketed(Simple, big_n);
         assert!(relative_error(ours.p, &exact) < 1.2e-16, "N = {big_n}: {:e}", ours.p);
         assert_eq!(ours.k_after, k, "N = {big_n}");
         let [below, above] = ours.bracket;
-        assert_eq!(below.next_up(), above);
         // To 60 digits the root of N = 5 is 1/2 itself.
         let slack = big(1e-50);
         assert!(big(below) <= exact.clone() + &slack && exact <= big(above) + slack);
-        let k_star = |p| Law::new(Simple, big_n, p).unwrap().k_star();
-        assert_eq!((k_star(below), k_star(above)), (1, k), "N = {big_n}");
     }
 }
 
@@ -78,13 +86,8 @@ fn jump_of_five_classes_is_bracketed_to_the_last_bit() {
             weights.iter().any(|weight| *weight > weights[0])
         };
         for big_n in [2, 3, 4, 10, 100, 101, 300] {
-            let leap = jump::p_jump(space, big_n).unwrap();
-            let [below, above] = leap.bracket;
-            assert_eq!(below.next_up(), above);
+            let [below, above] = bracketed(space, big_n).bracket;
             assert!(!exceeded(big_n, below) && exceeded(big_n, above), "{space:?} N = {big_n}");
-            assert!(leap.p == below || leap.p == above);
-            let k_star = |p| Law::new(space, big_n, p).unwrap().k_star();
-            assert_eq!((k_star(below), k_star(above)), (1, leap.k_after));
         }
     }
 }

@@ -21,10 +21,6 @@ pub fn int(n: usize) -> Big {
     Big::from(IBig::from(n)).with_precision(BITS).value()
 }
 
-pub fn root_two() -> Big {
-    int(2).sqrt()
-}
-
 /// e^x; 1 for zero, which dashu's exponential keeps at low precision, and 0 far below any use.
 pub fn exp(x: Big) -> Big {
     if x == Big::ZERO {

@@ -242,13 +242,16 @@ mod tests {
     use crate::{NormalPairs, Seed};
     use fearless_simd::Simd;
 
-    /// A realisation that ends early has the impacts of the whole one until one gap, or all, were
-    /// hit after a time.
+    fn draw(chain: &Chain, sigma: f64, stream: &str) -> Vec<Scenario> {
+        let normals = |i| NormalPairs::new(stream, Seed(1), i);
+        (0..16).map(|i| Scenario::draw(chain, sigma, &mut normals(i))).collect()
+    }
+
+    /// It has the impacts of the whole one until one gap, or all, were hit after a time.
     #[test]
     fn realisations_end_with_the_gap_that_is_asked_for() {
         let chain = Chain { masses: 8, ..Chain::default() };
-        let draw = |i| Scenario::draw(&chain, 0.5, &mut NormalPairs::new("first", Seed(1), i));
-        let scenarios: Vec<Scenario> = (0..16).map(draw).collect();
+        let scenarios = draw(&chain, 0.5, "first");
         let many = Abreast::new(&chain, &[], 60.0).unwrap();
         for (gaps, number) in [(HitGaps::One, 1), (HitGaps::All, 9)] {
             let (early, mut ended) = (many.clone().until_hit(gaps, 30.0), 0);
@@ -263,8 +266,7 @@ mod tests {
                         break;
                     }
                 }
-                let counts = run.unwrap().counts();
-                assert_eq!(counts.total.impacts, expected);
+                assert_eq!(run.unwrap().counts().total.impacts, expected);
             }
             assert!(ended > 4, "{gaps:?}: {ended}");
         }
@@ -278,19 +280,15 @@ mod tests {
             [(0.3, 2.0_f64.sqrt(), 0.06), (0.3, 0.6, 0.05), (1.0, 2.3, 0.09)]
         {
             let chain = Chain { masses: 30, forcing_frequency: frequency, ..Chain::default() };
-            let draw =
-                |i| Scenario::draw(&chain, sigma, &mut NormalPairs::new("decided", Seed(1), i));
-            let scenarios: Vec<Scenario> = (0..16).map(draw).collect();
+            let scenarios = draw(&chain, sigma, "decided");
             let runs = Abreast::new(&chain, &[], 100.0).unwrap().run(&scenarios, &|| false);
             let [mut impacts, mut decided] = [0; 2];
             for mut run in runs.into_iter().flatten() {
                 impacts += run.counts().total.impacts;
                 decided += run.slot.decided;
             }
-            assert!(
-                decided > 0 && (decided as f64) < share * impacts as f64,
-                "{decided} {impacts}"
-            );
+            let is_small = (decided as f64) < share * impacts as f64;
+            assert!(decided > 0 && is_small, "{decided} {impacts}");
         }
     }
 
@@ -301,14 +299,11 @@ mod tests {
         #[allow(unused_mut)]
         let mut levels = vec![best, Level::baseline()];
         #[cfg(target_arch = "x86_64")]
-        levels.extend(
-            [best.as_sse2().map(Simd::level), best.as_avx2().map(Simd::level)]
-                .into_iter()
-                .flatten(),
-        );
+        levels.extend(best.as_sse2().map(Simd::level));
+        #[cfg(target_arch = "x86_64")]
+        levels.extend(best.as_avx2().map(Simd::level));
         let chain = Chain { masses: 30, ..Chain::default() };
-        let draw = |i| Scenario::draw(&chain, 0.3, &mut NormalPairs::new("bits", Seed(1), i));
-        let scenarios: Vec<Scenario> = (0..16).map(draw).collect();
+        let scenarios = draw(&chain, 0.3, "bits");
         let many = Abreast::new(&chain, &[], 300.0).unwrap();
         let bits = |run: Option<Realisation>| {
             let parts = run.map(|run| run.free_parts(&chain)).unwrap_or_default();

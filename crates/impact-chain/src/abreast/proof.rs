@@ -224,8 +224,7 @@ mod tests {
         Local { u, q, v, z, ratio }
     }
 
-    /// Dips of every depth, in every place of a step, tame or not, also after an impact: none that
-    /// goes below zero is called open, a root is the first, and few are left undecided.
+    /// No dip below zero is called open, a root is the first, and few are left undecided.
     #[test]
     fn dips_of_known_depth() {
         let (half, mut seen) = (0.125, [0; 4]);
@@ -257,14 +256,9 @@ mod tests {
             match outcome {
                 Outcome::Open => assert!(least > 0.0, "{i} {depth:e} {least:e}"),
                 Outcome::Root { s, speed } => {
-                    assert!(
-                        least > -1e-12 && gap.width_and_rate(s)[0].abs() < 1e-14,
-                        "{i} {depth:e} {least:e}"
-                    );
-                    assert!(
-                        (speed + gap.width_and_rate(s)[1]).abs() < 1e-9 && speed > 0.9 * SLOW,
-                        "{i} {speed}"
-                    );
+                    let [width, rate] = gap.width_and_rate(s);
+                    assert!(least > -1e-12 && width.abs() < 1e-14, "{i} {depth:e} {least:e}");
+                    assert!((speed + rate).abs() < 1e-9 && speed > 0.9 * SLOW, "{i} {speed}");
                 }
                 Outcome::Unsure => assert!(depth.abs() < 1e-5, "{i} {depth:e} {just_hit}"),
             }
@@ -327,8 +321,7 @@ mod tests {
         assert!(!matches!(gap.first_root(part), Outcome::Root { .. }));
     }
 
-    /// A neighbour that is tame, the gap that was hit, and neighbours that are not tame: one is
-    /// narrowest at the end.
+    /// A tame neighbour, the gap that was hit, and two not tame: one is narrowest at the end.
     #[test]
     fn least_widths_after_an_impact() {
         dispatch!(Level::new(), simd => {

@@ -135,8 +135,7 @@ mod tests {
     use super::*;
     use crate::Chain;
 
-    /// Impacts are certain that are fast enough and far enough from an earlier one and from the end
-    /// of the step: here 1.25e-12 is far enough, for more than one.
+    /// They are fast, and far from an earlier one and the end of the step: here by 1.25e-12.
     #[test]
     fn roots_of_certain_impacts() {
         let (unit, far) = (blur(1.0), 2.0 * blur(1.0));

@@ -155,9 +155,8 @@ mod tests {
         }
     }
 
-    /// A function that is lowest at s, little more or much above, by a depth: above the band it has
-    /// no root there, below it its first, and within it either, and a miss is counted. The band is
-    /// up to three times as wide where the curvature changes within it.
+    /// A dip is no root above the band, one below it, and either within, where a miss is counted.
+    /// The band is up to three times as wide where the curvature changes within it.
     #[test]
     fn dips_that_touch_zero_are_roots_below_the_band_alone() {
         let search = Search::new(Frequencies::new(1.0, [1.5]));
@@ -195,10 +194,8 @@ mod tests {
                         _ => work.undecided > 0 || (end < s) == (lowest < 0.0),
                     };
                     let f = derivative(&dip, frequencies, 0, end).abs() / margin;
-                    assert!(
-                        is_right && (!is_root || f < 2.0),
-                        "{i}: {lowest:e} at {s}: {next:?}, {f}"
-                    );
+                    let is_zero = !is_root || f < 2.0;
+                    assert!(is_right && is_zero, "{i}: {lowest:e} at {s}: {next:?}, {f}");
                 }
             }
         }

@@ -208,8 +208,7 @@ mod tests {
     use crate::search::truth::{derivative, frame};
     use impact_numerics::random::{NormalPairs, Seed};
 
-    /// A sinusoid of the highest frequency about the middle of a piece has |f⁽⁸⁾| = M₈ there: q is
-    /// never above it, and touches it within a tenth of the remainder where f⁽⁸⁾ < 0.
+    /// Where |f⁽⁸⁾| = M₈, q is not above f, and touches it within a tenth of the remainder.
     #[test]
     fn the_polynomial_below_a_function_touches_it() {
         let frequencies = Frequencies::new(1.0, [1.5]);
@@ -264,8 +263,7 @@ mod tests {
         }
     }
 
-    /// f falls where each coefficient is below the one before by M₈ w⁸/(64 · 8!). No function is
-    /// known that needs more than an eighth of this.
+    /// f falls where each coefficient is below the one before by M₈ w⁸/(64 · 8!).
     #[test]
     fn a_function_that_may_rise_has_no_only_root() {
         let piece = Piece::new(0.0, 0.7, &Frequencies::new(1.0, [1.5]));

@@ -1,5 +1,4 @@
-//! Tests the engine: against a second simulator of higher precision, by laws that hold for any
-//! arithmetic, and in scenes of contact that are known by mechanics.
+//! Tests the engine: by a second simulator, by laws of any arithmetic, and by mechanics.
 
 mod abreast;
 mod certified;
@@ -24,6 +23,11 @@ fn given(free: Vec<[f64; 2]>, forcing: Vec<[f64; 2]>) -> Scenario {
     Scenario { initial, forcing, ..drawn(&Chain::default(), 0.0, "given", 0) }
 }
 
+/// A chain without forcing, from given free parts.
+fn unforced(free: &[[f64; 2]], restitution: f64) -> Scenario {
+    Scenario { restitution, ..given(free.to_vec(), vec![[0.0; 2]; free.len()]) }
+}
+
 fn run(engine: &mut Engine, until: f64) -> Vec<Impact> {
     engine.impacts(until).unwrap()
 }
@@ -32,6 +36,13 @@ fn first(engine: &mut Engine, until: f64) -> Option<Impact> {
     engine.next_impact(until).unwrap()
 }
 
+/// An engine that has run a scenario, and its impacts.
+fn ran(scenario: &Scenario, until: f64) -> (Engine, Vec<Impact>) {
+    let mut engine = Engine::new(scenario).unwrap();
+    let impacts = run(&mut engine, until);
+    (engine, impacts)
+}
+
 fn trace(scenario: &Scenario, until: f64) -> Vec<Impact> {
-    run(&mut Engine::new(scenario).unwrap(), until)
+    ran(scenario, until).1
 }

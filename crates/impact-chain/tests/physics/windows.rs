@@ -1,7 +1,7 @@
 //! Compares counts in windows with a list of impacts.
 
-use crate::{drawn, given, trace};
-use impact_chain::{Chain, Counts, Engine, Protocol, Scenario, Watch};
+use crate::{drawn, trace, unforced};
+use impact_chain::{Chain, Counts, Engine, Protocol, Watch};
 
 #[test]
 fn windows_by_a_list_of_impacts() {
@@ -27,8 +27,7 @@ fn windows_by_a_list_of_impacts() {
 #[test]
 fn runs_that_fail_or_overlap_are_counted() {
     let chain = Chain { masses: 1, ..Chain::default() };
-    let elastic = |part| Scenario { restitution: 1.0, ..given(vec![part], vec![[0.0; 2]]) };
-    let start = |part| Engine::new(&elastic(part));
+    let start = |part| Engine::new(&unforced(&[part], 1.0));
     let work = start([0.0, 1e7]).and_then(|mut hot| hot.impacts(9.0)).unwrap_err();
     let starts = [start([0.0, 0.5]), start([0.0, 1e7]), Err(work), start([-1.5, 0.0])];
     let mut watch = Watch::new(&chain, &[Protocol { transient: 1.0, window: 2.0 }]);

@@ -49,8 +49,7 @@ fn a_stretch_is_nearly_the_longest_of_its_kind() {
     }
 }
 
-/// Functions of degree six equal the quintic less its remainder: an interval is open if each of
-/// their inner Bernstein coefficients is, one of which is just above or below what is asked.
+/// An interval is open if each inner Bernstein coefficient is, of which one is at the limit.
 #[test]
 fn a_leap_is_open_as_far_as_its_remainder_allows() {
     const H: f64 = 0.5;
@@ -138,8 +137,7 @@ fn a_guess_goes_beyond_the_root_of_the_cubic() {
     }
 }
 
-/// A polynomial of degree five that falls through zero at 0.4 of 1/2, and back from there by twice
-/// what M₆ h⁶/46080 moves it.
+/// A quintic that falls through zero at 0.4, less twice what M₆ h⁶/46080 moves it.
 #[test]
 fn a_guess_goes_before_the_root_of_the_quintic() {
     const H: f64 = 0.5;

@@ -13,14 +13,6 @@ pub struct Hit {
     pub closing_speed: Dd,
 }
 
-/// The result of the search of a gap: no root before the time, or a root at it.
-#[derive(Clone, Debug)]
-enum Next {
-    None,
-    NoRootUntil(Dd),
-    Root(Dd),
-}
-
 #[derive(Clone, Debug)]
 pub struct Reference {
     spacing: Dd,
@@ -30,9 +22,10 @@ pub struct Reference {
     ring: bool,
     /// Free amplitudes (a, b) of each mass, then its forced ones, as the frequencies.
     masses: Vec<Vec<[Dd; 2]>>,
-    /// One entry a gap of the engine's numbering; on a ring entry 0 stays idle.
-    next: Vec<Next>,
-    time: Dd,
+    /// Time until which each gap has no root, and whether it has one then; on a ring gap 0 is none.
+    next: Vec<(Dd, bool)>,
+    /// The time of the last impact.
+    pub time: Dd,
 }
 
 /// How far a search looks ahead: most gaps are disturbed by a neighbour before.
@@ -48,41 +41,36 @@ impl Reference {
                 .chain(overtones)
                 .map(|(big_w, amplitudes)| (Dd::from(big_w), amplitudes))
                 .collect();
-        let masses = (0..scenario.forcing.len()).map(|j| {
-            let mut mass = vec![[Dd::from(0.0), Dd::from(0.0)]];
-            for &(big_w, amplitudes) in &components {
-                let factor = w * w - big_w * big_w;
-                let [alpha, beta] = amplitudes[j].map(|x| Dd::from(x) / factor);
-                // At rest the free part cancels place and velocity of the response.
-                if scenario.initial == Initial::Rest {
-                    let [a, b] = mass[0];
-                    mass[0] = [a - alpha, b - beta * big_w / w];
+        let masses: Vec<Vec<[Dd; 2]>> = (0..scenario.forcing.len())
+            .map(|j| {
+                let mut mass = vec![[Dd::ZERO; 2]];
+                for &(big_w, amplitudes) in &components {
+                    let factor = w * w - big_w * big_w;
+                    let [alpha, beta] = amplitudes[j].map(|x| Dd::from(x) / factor);
+                    // At rest the free part cancels place and velocity of the response.
+                    if scenario.initial == Initial::Rest {
+                        let [a, b] = mass[0];
+                        mass[0] = [a - alpha, b - beta * big_w / w];
+                    }
+                    mass.push([alpha, beta]);
                 }
-                mass.push([alpha, beta]);
-            }
-            if let Initial::Free(free) = &scenario.initial {
-                mass[0] = free[j].map(Dd::from);
-            }
-            mass
-        });
-        let masses: Vec<_> = masses.collect();
+                if let Initial::Free(free) = &scenario.initial {
+                    mass[0] = free[j].map(Dd::from);
+                }
+                mass
+            })
+            .collect();
         let ring = scenario.boundary == Boundary::Ring;
-        let mut chain = Reference {
+        let next = vec![(Dd::ZERO, false); masses.len() + 1];
+        Reference {
             spacing: Dd::from(scenario.spacing),
             restitution: Dd::from(scenario.restitution),
             frequencies: std::iter::once(w).chain(components.into_iter().map(|c| c.0)).collect(),
             ring,
-            next: Vec::new(),
             masses,
-            time: Dd::from(0.0),
-        };
-        chain.next = (0..=chain.masses.len())
-            .map(|gap| {
-                let idle = ring && gap == 0;
-                if idle { Next::None } else { Next::NoRootUntil(Dd::from(0.0)) }
-            })
-            .collect();
-        chain
+            next,
+            time: Dd::ZERO,
+        }
     }
 
     /// Sets a chain at the time of a state, every double taken as the exact number that it is.
@@ -91,16 +79,14 @@ impl Reference {
         let t = Dd::from(start.time);
         let w = chain.frequencies[0];
         let [s, c] = sin_cos(w * t);
-        for mass in &mut chain.masses {
-            mass[0] = [Dd::from(0.0), Dd::from(0.0)];
-        }
+        chain.masses.iter_mut().for_each(|mass| mass[0] = [Dd::ZERO; 2]);
         for (j, [x, v]) in chain.state(t).into_iter().enumerate() {
             let place = Dd::from((j + 1) as f64) * chain.spacing;
             let u = Dd::from(start.positions[j]) - place - x;
             let rate = (Dd::from(start.velocities[j]) - v) / w;
             chain.masses[j][0] = [u * c - rate * s, u * s + rate * c];
         }
-        chain.next.fill(Next::NoRootUntil(t));
+        chain.next.fill((t, false));
         chain.time = t;
         chain
     }
@@ -115,7 +101,7 @@ impl Reference {
     pub fn gap(&self, gap: usize) -> Gap {
         let [left, right] = self.sides(gap);
         let part = |which: usize, i: usize| {
-            let of = |mass: Option<usize>| mass.map_or(Dd::from(0.0), |j| self.masses[j][which][i]);
+            let of = |mass: Option<usize>| mass.map_or(Dd::ZERO, |j| self.masses[j][which][i]);
             of(right) - of(left)
         };
         Gap {
@@ -134,52 +120,32 @@ impl Reference {
 
     /// Displacement from equilibrium, and velocity, of each mass at a time of the present flight.
     pub fn state(&self, t: Dd) -> Vec<[Dd; 2]> {
-        let one = |mass: &Vec<[Dd; 2]>| {
-            let gap = Gap {
-                spacing: Dd::from(0.0),
-                frequencies: self.frequencies.clone(),
-                amplitudes: mass.clone(),
-            };
-            let [x, v, _] = gap.jet(t);
+        let motion = |mass: &Vec<[Dd; 2]>| {
+            let (frequencies, amplitudes) = (self.frequencies.clone(), mass.clone());
+            let [x, v, _] = Gap { spacing: Dd::ZERO, frequencies, amplitudes }.jet(t);
             [x, v]
         };
-        self.masses.iter().map(one).collect()
-    }
-
-    pub fn time(&self) -> Dd {
-        self.time
+        self.masses.iter().map(motion).collect()
     }
 
     /// The next impact up to a time, which is then carried out; none if there is none.
     pub fn step(&mut self, until: Dd) -> Result<Option<Hit>, String> {
         loop {
-            let mut first: Option<(usize, Dd, bool)> = None;
-            for (gap, next) in self.next.iter().enumerate() {
-                let (time, root) = match *next {
-                    Next::None => continue,
-                    Next::NoRootUntil(time) => (time, false),
-                    Next::Root(time) => (time, true),
-                };
-                if first.is_none_or(|(_, earliest, _)| time < earliest) {
-                    first = Some((gap, time, root));
-                }
-            }
-            let Some((gap, time, root)) = first else { return Ok(None) };
-            if time > until || (!root && time == until) {
+            let gaps = usize::from(self.ring)..self.next.len();
+            let earlier = |a: usize, b: usize| if self.next[b].0 < self.next[a].0 { b } else { a };
+            let gap = gaps.clone().fold(gaps.start, earlier);
+            let (time, is_root) = self.next[gap];
+            if time > until || !is_root && time == until {
                 return Ok(None);
             }
-            if root {
+            if is_root {
                 return Ok(Some(self.impact(gap, time)));
             }
-            let shape = self.gap(gap);
             let ahead = time + Dd::from(AHEAD);
             let ahead = if ahead < until { ahead } else { until };
-            self.next[gap] = if shape.never_closes() {
-                Next::None
-            } else {
-                let found = shape.first_root(time, ahead).map_err(|e| format!("gap {gap}: {e}"))?;
-                found.map_or(Next::NoRootUntil(ahead), Next::Root)
-            };
+            let root = self.gap(gap).first_root(time, ahead);
+            let root = root.map_err(|error| format!("gap {gap}: {error}"))?;
+            self.next[gap] = (root.unwrap_or(ahead), root.is_some());
         }
     }
 
@@ -207,18 +173,11 @@ impl Reference {
             self.masses[mass][0] = [a - rate * s, b + rate * c];
         }
         self.time = time;
-        for other in self.touched(gap) {
-            self.next[other] = Next::NoRootUntil(time);
+        for other in 0..self.next.len() {
+            if self.sides(other).iter().flatten().any(|mass| sides.contains(&Some(*mass))) {
+                self.next[other] = (time, false);
+            }
         }
         Hit { time, gap, closing_speed: -closing }
-    }
-
-    fn touched(&self, gap: usize) -> Vec<usize> {
-        let n = self.masses.len();
-        if self.ring {
-            let before = if gap == 1 { n } else { gap - 1 };
-            return vec![before, gap, gap % n + 1];
-        }
-        (gap.saturating_sub(1)..=(gap + 1).min(n)).collect()
     }
 }

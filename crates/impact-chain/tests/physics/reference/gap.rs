@@ -13,33 +13,16 @@ pub struct Gap {
     pub amplitudes: Vec<[Dd; 2]>,
 }
 
-/// One piece of the time axis, with the signs that are known of Δ at its ends.
-struct Piece {
-    from: Dd,
-    to: Dd,
-}
-
 impl Gap {
     /// Δ, Δ', Δ'' at a time.
     pub fn jet(&self, t: Dd) -> [Dd; 3] {
-        let mut jet = [self.spacing, Dd::from(0.0), Dd::from(0.0)];
+        let mut jet = [self.spacing, Dd::ZERO, Dd::ZERO];
         for (&w, &[a, b]) in self.frequencies.iter().zip(&self.amplitudes) {
             let [s, c] = sin_cos(w * t);
             let u = a * c + b * s;
             let v = b * c - a * s;
             let [f, g, h] = jet;
             jet = [f + u, g + w * v, h - w * w * u];
-        }
-        jet
-    }
-
-    fn rough_jet(&self, t: f64) -> [f64; 3] {
-        let mut jet = [self.spacing.hi, 0.0, 0.0];
-        for (w, [a, b]) in self.frequencies.iter().zip(&self.amplitudes) {
-            let (w, a, b) = (w.hi, a.hi, b.hi);
-            let (s, c) = (w * t).sin_cos();
-            let u = a * c + b * s;
-            jet = [jet[0] + u, jet[1] + w * (b * c - a * s), jet[2] - w * w * u];
         }
         jet
     }
@@ -66,11 +49,6 @@ impl Gap {
         self.bounds()[1]
     }
 
-    /// Returns whether R1 + R2 < d by a clear margin, so that the gap never closes.
-    pub fn never_closes(&self) -> bool {
-        self.bounds()[0] * (1.0 + 1e-12) < self.spacing.hi
-    }
-
     /// The first time in (from, to] at which Δ falls to zero from above.
     ///
     /// A gap that is closed at `from` (to a few roundings) counts as just parted when it opens,
@@ -86,7 +64,7 @@ impl Gap {
             return Err(format!("overlap of {f:e} at t = {}", from.hi));
         }
         // Without a speed the gap opens or stays by its acceleration.
-        let mut ignore = Dd::from(0.0);
+        let mut ignore = Dd::ZERO;
         if touching && g.abs() <= noise {
             if h <= 0.0 {
                 return Err(format!("contact at t = {}", from.hi));
@@ -94,52 +72,25 @@ impl Gap {
             ignore = Dd::from(noise.sqrt() / h.sqrt().min(1.0) * 10.0);
         }
         let start = from + ignore;
-        if start >= to {
-            return Ok(None);
-        }
-        let mut left = start;
-        while left < to {
-            let right = left + Dd::from(0.4);
-            let right = if right < to { right } else { to };
-            if let Some(root) = self.search(left, right)? {
-                return Ok(Some(root));
-            }
-            left = right;
-        }
-        Ok(None)
+        if start < to { self.search(start, to) } else { Ok(None) }
     }
 
-    /// Depth first, left first: a piece is excluded by its enclosure (in doubles where these are
-    /// enough), decided by the signs at its ends where Δ is monotone, cut at its extremum where Δ'
-    /// is, and halved otherwise.
+    /// Depth first, left first: a piece is excluded by its enclosure, decided by the signs at its
+    /// ends where Δ is monotone, cut at its extremum where Δ' is, and halved otherwise.
     fn search(&self, from: Dd, to: Dd) -> Result<Option<Dd>, String> {
-        let [_, bend, third] = self.bounds();
-        // More than the errors of doubles in an enclosure.
-        let fastest = self.frequencies.iter().fold(1.0, |most: f64, w| most.max(w.hi));
-        let noise = 1e-13 * (self.scale() + bend) * (1.0 + fastest * to.hi);
-        let mut stack = vec![Piece { from, to }];
-        while let Some(Piece { from, to }) = stack.pop() {
+        let [_, _, third] = self.bounds();
+        let mut stack = vec![[from, to]];
+        while let Some([from, to]) = stack.pop() {
             let half = Dd::from(0.5) * (to - from);
             let middle = from + half;
             let h = half.hi * (1.0 + 1e-14);
-            let stays_open = |[f, g, k]: [f64; 3], noise: f64| {
-                let falls = g.abs() * h + 0.5 * k.abs() * h * h + third * h * h * h / 6.0;
-                f - noise > falls * (1.0 + 1e-13)
-            };
-            if stays_open(self.rough_jet(middle.hi), noise) {
-                continue;
-            }
             let [f, g, k] = self.jet(middle).map(|x| x.hi);
-            if stays_open([f, g, k], 0.0) {
+            let falls = g.abs() * h + 0.5 * k.abs() * h * h + third * h * h * h / 6.0;
+            if f > falls * (1.0 + 1e-13) {
                 continue;
             }
-            if g.abs() > (k.abs() * h + 0.5 * third * h * h) * (1.0 + 1e-13) {
-                if g < 0.0 && self.closed(to) {
-                    return Ok(Some(self.bisect(from, to, 0)));
-                }
-                continue;
-            }
-            if k.abs() > third * h * (1.0 + 1e-13) {
+            let is_monotone = g.abs() > (k.abs() * h + 0.5 * third * h * h) * (1.0 + 1e-13);
+            if is_monotone || k.abs() > third * h * (1.0 + 1e-13) {
                 if let Some(root) = self.unimodal(from, to, k > 0.0) {
                     return Ok(Some(root));
                 }
@@ -148,45 +99,35 @@ impl Gap {
             if h < 1e-13 {
                 return Err(format!("a triple root at t = {}", middle.hi));
             }
-            stack.push(Piece { from: middle, to });
-            stack.push(Piece { from, to: middle });
+            stack.extend([[middle, to], [from, middle]]);
         }
         Ok(None)
     }
 
-    /// The first root in a piece where Δ'' keeps its sign.
+    /// The first root in a piece where Δ' or Δ'' keeps its sign.
     fn unimodal(&self, from: Dd, to: Dd, convex: bool) -> Option<Dd> {
         let slope = |t: Dd| self.jet(t)[1];
-        let zero = Dd::from(0.0);
-        let turns = (slope(from) < zero) != (slope(to) < zero);
-        if !turns {
-            let falls = slope(to) < zero;
-            return (falls && self.closed(to)).then(|| self.bisect(from, to, 0));
+        let [falls_before, falls] = [from, to].map(|t| slope(t) < Dd::ZERO);
+        if falls_before == falls {
+            return (falls && self.closed(to)).then(|| self.bisect(from, to, 0, -1.0));
         }
-        let turn = self.bisect(from, to, if convex { 1 } else { 2 });
+        let turn = self.bisect(from, to, 1, if convex { 1.0 } else { -1.0 });
         let (left, right) = if convex { (from, turn) } else { (turn, to) };
-        self.closed(right).then(|| self.bisect(left, right, 0))
+        self.closed(right).then(|| self.bisect(left, right, 0, -1.0))
     }
 
     fn closed(&self, t: Dd) -> bool {
-        self.jet(t)[0] <= Dd::from(0.0)
+        self.jet(t)[0] <= Dd::ZERO
     }
 
-    /// The place in (from, to] where Δ falls (mode 0), Δ' rises (1) or Δ' falls (2) through
-    /// zero: bisection down to a small piece, then Newton steps kept inside it.
-    fn bisect(&self, mut from: Dd, mut to: Dd, mode: usize) -> Dd {
-        let value = |t: Dd| {
-            let [f, g, h] = self.jet(t);
-            match mode {
-                0 => (-f, -g),
-                1 => (g, h),
-                _ => (-g, -h),
-            }
-        };
+    /// The place in (from, to] where Δ or Δ', times a sign, rises through zero: bisection down to
+    /// a small piece, then Newton steps kept inside it.
+    fn bisect(&self, mut from: Dd, mut to: Dd, order: usize, sign: f64) -> Dd {
         let mut best = to;
         for step in 0..400 {
-            let (f, slope) = value(best);
-            if f >= Dd::from(0.0) {
+            let jet = self.jet(best);
+            let [f, slope] = [jet[order] * sign, jet[order + 1] * sign];
+            if f >= Dd::ZERO {
                 to = best;
             } else {
                 from = best;

@@ -1,8 +1,5 @@
-//! Simulates the chain a second time, in higher precision, to be compared with the engine.
-//!
-//! Nothing here is taken from the engine but the description of a scenario. It works in absolute
-//! time with the plain amplitudes of Eq. (19), and searches by certified subdivision of intervals
-//! instead of forward stretches, with numbers of 106 bits.
+//! Simulates the chain a second time, with 106 bits. Nothing is taken from the engine but the
+//! description of a scenario: absolute time, the amplitudes of Eq. (19), subdivision of intervals.
 
 // benches/reference.rs and tests/experiments use a part of this module.
 #![allow(dead_code, unused_imports)]
