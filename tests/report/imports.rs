@@ -76,7 +76,8 @@ impl Modules {
                 ("macro_rules", ..) => {
                     // A macro that is exported has its place at the top of the crate.
                     let name = sign(i + 2);
-                    let inside = [&["crate".to_string()], &path[1..], &[name.clone()]].concat();
+                    let mut inside = [&["crate".to_string()], &path[1..]].concat();
+                    inside.push(name.clone());
                     let whole_crate = self.all.entry(path[..1].to_vec()).or_default();
                     whole_crate.imports.insert(name.clone(), inside);
                     module.items.insert(name);

@@ -169,7 +169,8 @@ fn place_rise(results: &mut Results, places: [f64; 2]) {
 fn one_changed_result_changes_a_verdict() {
     use Verdict::{Differs, Reproduced};
     const ENGINE: [&dyn AnyExperiment; 3] = [&RACE, &TRIALS, &SCALE];
-    let changes: [(&str, Verdict, fn(&mut Results)); 7] = [
+    type Change = fn(&mut Results);
+    let changes: [(&str, Verdict, Change); 7] = [
         ("sec2_half_height", Reproduced, |results| place_rise(results, [0.12, 0.3])),
         ("sec2_half_height", Differs, |results| place_rise(results, [0.3, 0.12])),
         ("sec2_jump", Differs, |results| {
