@@ -28,11 +28,15 @@ owner: ## write owner.toml and the list of parts into all files that have them; 
 public: ## test what is published beside the paper: owner, citations, schemas, archives' files, the README's commands
 	python3 -B -m unittest discover -s tests/public
 
+# Without the two packages that have no tests, whose dependencies ask for other features of crates
+# that then are compiled twice.
+TESTED = --workspace --exclude impact-bench --exclude impact-chain-python
+
 test: ## all tests except the long one
-	cargo test --release --locked --workspace
+	cargo test --release --locked $(TESTED)
 
 test-long: ## the long test only (a job array on Slurm, which root installs when missing)
-	cargo test --release --locked --workspace -- --ignored
+	cargo test --release --locked $(TESTED) -- --ignored
 
 test-checked: ## the same tests with checks of overflow and debug assertions (compiles everything again)
 	CARGO_TARGET_DIR=target/checked CARGO_PROFILE_RELEASE_DEBUG_ASSERTIONS=true CARGO_PROFILE_RELEASE_OVERFLOW_CHECKS=true $(MAKE) test
