@@ -22,9 +22,9 @@ fn every_statement_is_listed_and_one_that_differs_fails() {
             + &entry.replacen("\"16\"", "\"17\"", 1).replacen("value = 16", "value = 17", 1)
     });
     let differs = "differ without an explanation that holds: sec3_edges";
-    let text = check(folder.path(), "-v", 1, &[differs]);
+    let listing = check(folder.path(), "-v", 1, &[differs]);
     // The sign, the number, the id, the verdict, the place and the basis.
-    let verdicts: BTreeMap<String, String> = text
+    let verdicts: BTreeMap<String, String> = listing
         .lines()
         .filter(|line| !line.starts_with(' ') && line.contains(" sec") && line.ends_with(')'))
         .map(|line| {
@@ -36,8 +36,8 @@ fn every_statement_is_listed_and_one_that_differs_fails() {
             (words[2].trim_end_matches(':').to_string(), verdict.to_string())
         })
         .collect();
-    assert_eq!(verdicts.len(), 87, "{text}");
-    assert!(text.starts_with("FAILS") && verdicts["sec3_edges"] == "differs", "{text}");
+    assert_eq!(verdicts.len(), 87, "{listing}");
+    assert!(listing.starts_with("FAILS") && verdicts["sec3_edges"] == "differs", "{listing}");
     // Else a line for each that is not simply reproduced, with both sides.
     let short = check(folder.path(), "", 1, &[]);
     let explained = verdicts.values().filter(|verdict| *verdict == "differs and explained").count();
@@ -52,11 +52,11 @@ fn every_statement_is_listed_and_one_that_differs_fails() {
     assert!(one.contains("1 of 1 relations between numbers hold"), "{one}");
     // The statements of the paper and our relations are scored apart.
     let scores: Vec<&str> =
-        text.lines().skip_while(|line| !line.contains(" statements of the paper: ")).collect();
-    assert!(scores[0].starts_with("79 statements of the paper: "), "{text}");
-    assert!(scores[0].contains(&format!(", differs and explained {explained}, ")), "{text}");
-    assert!(scores[1].starts_with("reproduced, by what the verdict rests on: "), "{text}");
-    assert!(scores[2].starts_with("our own checks: "), "{text}");
+        listing.lines().skip_while(|line| !line.contains(" statements of the paper: ")).collect();
+    assert!(scores[0].starts_with("79 statements of the paper: "), "{listing}");
+    assert!(scores[0].contains(&format!(", differs and explained {explained}, ")), "{listing}");
+    assert!(scores[1].starts_with("reproduced, by what the verdict rests on: "), "{listing}");
+    assert!(scores[2].starts_with("our own checks: "), "{listing}");
     // The report is written all the same.
     let paper = "paper --profile quick --out p --results r --templates t";
     ends(folder.path(), paper, 1, &["sec3_edges; `check` says more"]);

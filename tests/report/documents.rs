@@ -35,14 +35,14 @@ fn section<'a>(markdown: &'a str, heading: &str) -> &'a str {
 
 #[test]
 fn no_document_outgrows_its_reader() {
-    let (edition, beyond) = (QUICK.text("report.md"), QUICK.text("beyond.md"));
+    let (edition, beyond) = (QUICK.file_text("report.md"), QUICK.file_text("beyond.md"));
     let counts = [
-        ("the front page", words(QUICK.text("README.md")), 600),
+        ("the front page", words(QUICK.file_text("README.md")), 600),
         ("the edition", words(edition), 7_000),
         ("its abstract", words(section(edition, "Abstract")), 220),
         ("the second paper", words(beyond), 4_500),
         ("its abstract", words(section(beyond, "Abstract")), 120),
-        ("the methods", words(QUICK.text("methods.md")), 3_000),
+        ("the methods", words(QUICK.file_text("methods.md")), 3_000),
     ];
     let too_long: Vec<_> =
         counts.iter().filter(|(_, count, budget)| *count * 10 > budget * 11).collect();
@@ -75,7 +75,8 @@ fn every_link_lands_wherever_the_report_is_written() {
 #[test]
 fn mathematics_is_left_alone() {
     let documents = QUICK.paper.edition.documents.iter();
-    let formulas: usize = documents.map(|document| formulas(QUICK.text(document.markdown))).sum();
+    let formulas: usize =
+        documents.map(|document| formulas(QUICK.file_text(document.markdown))).sum();
     assert!(formulas > 400, "{formulas}");
 }
 

@@ -12,7 +12,7 @@ fn parsed(text: &str) -> Document<'_> {
 
 fn pages() -> impl Iterator<Item = (&'static report::Document, Document<'static>)> {
     let documents = QUICK.paper.edition.documents.iter();
-    documents.map(|document| (document, parsed(QUICK.text(document.page))))
+    documents.map(|document| (document, parsed(QUICK.file_text(document.page))))
 }
 
 /// A card: title, first line, and which rows it has.
@@ -48,7 +48,7 @@ fn every_link_lands_wherever_the_report_is_written() {
 
 #[test]
 fn every_value_has_one_card() {
-    let (rows, cards) = cards(QUICK.text("cards.js"));
+    let (rows, cards) = cards(QUICK.file_text("cards.js"));
     let (mut shown, mut asked) = (0, BTreeSet::new());
     for (document, page) in pages() {
         for value in page.descendants().filter(|node| node.attribute("data-card").is_some()) {
@@ -73,7 +73,7 @@ fn every_value_has_one_card() {
         assert!(html.contains(part), "{part:?} is not in {html:?}");
     }
     // The headline number stands in an equation, and opens there too.
-    let page = parsed(QUICK.text("report.html"));
+    let page = parsed(QUICK.file_text("report.html"));
     let headline = |node: &Node<'_, '_>| {
         node.attribute("data-card") == Some("sweep.rise.half_height")
             && node.ancestors().any(|outer| outer.attribute("class") == Some("equation"))
@@ -123,7 +123,7 @@ fn every_page_says_how_to_cite_it() {
 
 #[test]
 fn equations_are_mathml() {
-    let page = parsed(QUICK.text("report.html"));
+    let page = parsed(QUICK.file_text("report.html"));
     assert!(elements(&page, "math").len() > 300);
     assert!(elements(&page, "merror").is_empty());
     let text_nodes = page.descendants().filter(Node::is_text);

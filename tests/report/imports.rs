@@ -188,9 +188,9 @@ fn arrows() -> BTreeMap<String, BTreeSet<String>> {
     let mut modules = Modules::default();
     for (library, folder) in CRATES.iter().filter(|(library, _)| *library != "main") {
         let sources = crate::tree(Path::new(folder)).into_iter();
-        for (name, text) in sources.filter(|(name, _)| name.ends_with(".rs")) {
+        for (name, bytes) in sources.filter(|(name, _)| name.ends_with(".rs")) {
             let (file, inside) = (format!("{folder}/{name}"), name.trim_end_matches(".rs"));
-            let text = String::from_utf8(text).unwrap();
+            let source = String::from_utf8(bytes).unwrap();
             let is_program = *folder == "src" && (inside == "main" || inside.starts_with("cli"));
             let mut path = vec![if is_program { "main" } else { library }.to_string()];
             path.extend(inside.split('/').map(String::from));
@@ -199,7 +199,7 @@ fn arrows() -> BTreeMap<String, BTreeSet<String>> {
             }
             if !path.contains(&"tests".to_string()) {
                 // Clippy refuses code behind such a module.
-                let code = text.split("#[cfg(test)]\nmod tests").next().unwrap();
+                let code = source.split("#[cfg(test)]\nmod tests").next().unwrap();
                 modules.read(&path, &file, code.parse().unwrap());
             }
         }

@@ -42,7 +42,7 @@ impl Quick {
     }
 
     /// A file of the report.
-    fn text(&self, name: &str) -> &'static str {
+    fn file_text(&self, name: &str) -> &'static str {
         std::str::from_utf8(&crate::QUICK.below[name]).unwrap()
     }
 
@@ -60,8 +60,9 @@ impl Quick {
 fn links_land(names: Vec<&str>, read: fn(&str) -> [Vec<String>; 2], least: usize, across: usize) {
     let made = &crate::QUICK;
     for (report, top) in [(&made.below, "../../"), (&made.report, "none")] {
-        let text = |name: &str| std::str::from_utf8(&report[name]).unwrap();
-        let files: BTreeMap<&str, _> = names.iter().map(|name| (*name, read(text(name)))).collect();
+        let file_text = |name: &str| std::str::from_utf8(&report[name]).unwrap();
+        let files: BTreeMap<&str, _> =
+            names.iter().map(|name| (*name, read(file_text(name)))).collect();
         let (mut inside, mut outside, mut up) = (0, 0, 0);
         for (name, [links, places]) in &files {
             let distinct: BTreeSet<_> = places.iter().collect();

@@ -159,7 +159,7 @@ impl Picture {
 /// All pictures: of the quick profile, and those that are committed.
 pub fn pictures() -> Vec<Picture> {
     let documents = QUICK.paper.edition.documents.iter();
-    let prose: String = documents.map(|document| QUICK.text(document.markdown)).collect();
+    let prose: String = documents.map(|document| QUICK.file_text(document.markdown)).collect();
     let both = QUICK.figures.iter().flat_map(|figure| {
         let name = format!("figures/{}.svg", figure.id);
         let before = prose.split_once(&format!("]({name})")).map(|parts| parts.0);

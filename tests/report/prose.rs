@@ -15,7 +15,7 @@ use impact_paper::params::MethodName;
 #[test]
 fn the_report_has_every_equation_and_figure() {
     let documents = QUICK.paper.edition.documents.iter().filter(|document| !document.repeats);
-    let markdown: String = documents.map(|document| QUICK.text(document.markdown)).collect();
+    let markdown: String = documents.map(|document| QUICK.file_text(document.markdown)).collect();
     for number in 1..=38 {
         assert_eq!(markdown.matches(&format!("\\tag{{{number}}}")).count(), 1, "Eq. ({number})");
     }

@@ -28,7 +28,8 @@ fn each_equation_has_one_home() {
 /// An origin names the function that computed the number: no constant, structure or module.
 #[test]
 fn every_origin_is_a_function() {
-    let values: BTreeMap<String, Value> = serde_json::from_str(QUICK.text("values.json")).unwrap();
+    let values: BTreeMap<String, Value> =
+        serde_json::from_str(QUICK.file_text("values.json")).unwrap();
     let (sources, mut functions) = (&QUICK.paper.project.sources, 0);
     for Value { id, source, .. } in values.values().filter(|value| !value.source.is_empty()) {
         let (file, line) = sources.place(source).unwrap_or_else(|| panic!("{id}: {source}"));
