@@ -15,23 +15,9 @@ use literate::table::{DataFile, shortest};
 use serde_json::from_value;
 use std::ops::Range;
 
-/// Run an ensemble of random chains at each σ and print a row for each σ
-///
-/// Examples:
-///   sweep --sigma 0.08..0.16:0.01
-///   sweep --sigma 0.12,0.13 --masses 1000 --realisations 100
-///   sweep --sigma 0.12 --realisations 1000..2000 --transient 100,500 --window 200,1000
-///
-/// Each row says how many distinct gaps impact in the window (T, T + W]; realisations without any
-/// are not kept. Realisation i has the same standard normals at every σ. All windows are read from
-/// one run. Rows are printed at the end. Warnings (stderr) name realisations that the engine ended
-/// early, rows with more than a tenth of the starts rejected, or with more than one in a hundred
-/// impacts at the instant of another, and grazes that rounding could not decide.
-///
-/// Realisation i is Scenario::draw of impact-chain with NormalPairs::new("sweep", Seed(S), i);
-/// its to_json can be read by trace. The chain, its equation and its units: trace --help.
 #[derive(clap::Args)]
-#[command(verbatim_doc_comment, after_help = help())]
+#[command(about = "Run an ensemble of random chains at each σ and print a row for each σ")]
+#[command(long_about = include_str!("sweep.txt"), after_help = help())]
 pub struct Args {
     /// Standard deviations: a list 0.1,0.12 or a range A..B:STEP (B included when hit).
     #[arg(long, value_name = "A..B:STEP|LIST", allow_hyphen_values = true, value_parser = numbers(0.0, 1e6))]
