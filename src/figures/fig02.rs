@@ -1,11 +1,7 @@
 //! Draws Fig. 2: the most likely number of impacts against σ, simulated, and the distributions
 //! before, at and after its jump.
 
-use super::encoding::{Look, gaps_axis};
 use super::prelude::*;
-use super::simulated::*;
-use crate::experiments::Results;
-use crate::params::Protocol;
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let table = results.table("jump.distributions")?;

@@ -1,11 +1,7 @@
 //! Draws Fig. 3: the expected number of impacts (of different gaps) against σ, simulated, and how
 //! many runs it rests on.
 
-use super::encoding::{Look, gaps_axis};
 use super::prelude::*;
-use super::simulated::*;
-use crate::experiments::Results;
-use crate::experiments::theory::comparison;
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let half_height = results.number("sweep.rise.half_height").ok();
@@ -16,7 +12,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let rows = results.table("sweep.rows")?;
     let swept = |column| rows.curve(&[], "sigma", column);
     let (all, means) = (swept("mean_all")?, simulated_points(results)?);
-    let mean = comparison::interpolate(&means, printed_threshold());
+    let mean = interpolate(&means, printed_threshold());
     draw_printed_threshold(&panel, mean.unwrap_or(0.0))?;
     panel.curve(Look::ALL.name, &all, Look::ALL.line)?;
     panel.estimates(Look::ACTIVE.name, &simulated(results)?, Look::ACTIVE.mark)?;

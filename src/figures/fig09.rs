@@ -1,8 +1,6 @@
 //! Draws Fig. 9: (a) the most likely and (b) the expected number of impacts against p.
 
-use super::encoding::Look;
 use super::prelude::*;
-use crate::experiments::Results;
 use crate::experiments::theory::law::{means, steps};
 use crate::params::VERTICES as N;
 

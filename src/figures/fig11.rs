@@ -1,10 +1,7 @@
 //! Draws Fig. 11: the impact probability p against the standard deviation σ of the forcing; on a
 //! logarithmic axis as well, which the paper does not have.
 
-use super::encoding::{Look, SIGMA_LABEL};
 use super::prelude::*;
-use super::simulated::first_point_above;
-use crate::experiments::Results;
 
 /// Lowest decade of the logarithmic panel.
 const LOWEST: i32 = -8;

@@ -1,10 +1,6 @@
 //! Draws Fig. 12: the expected number of impacts, graph theory against simulation.
 
-use super::encoding::{Look, gaps_axis};
 use super::prelude::*;
-use super::simulated::*;
-use crate::experiments::Results;
-use crate::params::VERTICES;
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(5450);

@@ -3,7 +3,6 @@
 //! class is visible and named.
 
 use super::prelude::*;
-use crate::experiments::Results;
 use crate::experiments::theory::higher::{contributions, five};
 use crate::params::{HIGHER_P, VERTICES as N};
 

@@ -1,8 +1,6 @@
 //! Draws Fig. 14: simple and higher-order distributions become alike as p grows.
 
-use super::encoding::Look;
 use super::prelude::*;
-use crate::experiments::Results;
 use crate::experiments::theory::higher::five;
 use crate::experiments::theory::law::simple;
 use crate::params::{CONVERGENCE_P, VERTICES as N};

@@ -1,9 +1,6 @@
 //! Draws Fig. 15: as Fig. 12, with higher orders, and their change, which the paper does not show.
 
-use super::encoding::{Look, gaps_axis};
 use super::prelude::*;
-use super::simulated::*;
-use crate::experiments::Results;
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(7900);

@@ -1,11 +1,6 @@
 //! Draws Fig. S3: gaps that close by themselves, and chains with one of them.
 
-use super::encoding::{Look, SIGMA_LABEL};
 use super::prelude::*;
-use crate::experiments::Results;
-use crate::experiments::theory::comparison::interpolate;
-use crate::params::printed_threshold;
-use literate::table::Table;
 
 /// The σ of (a).
 const SIGMAS: (f64, f64) = (0.055, 0.165);

@@ -1,11 +1,6 @@
 //! Draws Fig. S4: how impacts spread from one gap, and the mean count that follows.
 
-use super::encoding::{HALF_HEIGHT_LABEL, Look, SIGMA_LABEL, gaps_axis};
 use super::prelude::*;
-use crate::experiments::Results;
-use crate::experiments::theory::comparison::interpolate;
-use crate::params::printed_threshold;
-use literate::table::Table;
 
 /// The σ of (a).
 const SIGMAS: (f64, f64) = (0.075, 0.165);

@@ -1,9 +1,7 @@
 //! Draws Fig. S5: chains from rest and from above after several transients.
 
-use super::encoding::{HALF_HEIGHT_LABEL, SIGMA_LABEL};
 use super::prelude::*;
-use crate::experiments::{PROTOCOL, Results};
-use literate::table::Table;
+use crate::experiments::PROTOCOL;
 
 /// The window of the half heights.
 const WINDOW: f64 = 200.0;

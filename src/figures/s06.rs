@@ -1,11 +1,8 @@
 //! Draws Fig. S6: the most likely number and its jump for many vertices.
 
-use super::encoding::Look;
 use super::prelude::*;
-use crate::experiments::Results;
 use crate::experiments::theory::large;
 use crate::params::DRAWN_VERTICES;
-use literate::table::Table;
 
 /// The p N in (a): around the onset, where the sizes differ.
 const RANGE: (f64, f64) = (0.9, 1.5);

@@ -1,13 +1,11 @@
 //! Draws Fig. S7: speed against accuracy of a mean, the difference by each method from the engine's
 //! mean against the time that the method takes, once for each question.
 
-use super::encoding;
 use super::prelude::*;
 use super::rivals;
 use crate::experiments::accuracy::answers;
 use crate::experiments::accuracy::tables::{Compared, compared};
-use crate::experiments::{BIAS, MEASURED, Results};
-use crate::params::{MethodName, Setting};
+use crate::experiments::{BIAS, MEASURED};
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let (biases, measured) = (results.of(&BIAS)?, results.of(&MEASURED)?);

@@ -3,7 +3,7 @@
 use super::prelude::*;
 use crate::experiments::accuracy::case::Outcome::{self, *};
 use crate::experiments::accuracy::trials::{Trial, right};
-use crate::experiments::{PROGRAMS, Results, TRIALS};
+use crate::experiments::{PROGRAMS, TRIALS};
 
 /// How cases end that are not right, from the bottom of a tile upwards.
 const FAILURES: [(&str, RGBColor, &[Outcome]); 3] = [

@@ -3,7 +3,7 @@
 use super::prelude::*;
 use super::rivals::{self, FINEST, Place, Point, by_method, over_engine};
 use crate::experiments::accuracy::race::{DISPLACED, Entry};
-use crate::experiments::{MEASURED, RACE, Results};
+use crate::experiments::{MEASURED, RACE};
 use crate::params::MethodName::*;
 
 /// Where the names stand in (a).

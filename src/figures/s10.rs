@@ -1,12 +1,10 @@
 //! Draws Fig. S10: how long all impacts of a run are right, against time and one impact's error.
 
-use super::encoding;
 use super::prelude::*;
 use super::rivals::{self, FINEST, Place, Point, by_method, over_engine, programs};
 use crate::experiments::accuracy::race::{DISPLACED, Entry, Race};
-use crate::experiments::{MEASURED, RACE, Results};
+use crate::experiments::{MEASURED, RACE};
 use crate::params::MethodName::*;
-use impact_numerics::statistics::Estimate;
 
 /// The rounding of doubles, 2⁻⁵³.
 const ROUNDING: f64 = f64::EPSILON / 2.0;

@@ -1,11 +1,11 @@
 //! Gives the figures of the simulations what they share: rows, axes and marks.
 
 use super::encoding::SIGMA_LABEL;
-use super::prelude::*;
 use crate::experiments::Results;
 use crate::experiments::theory::comparison;
-pub use crate::params::printed_threshold;
+use crate::params::printed_threshold;
 use impact_numerics::statistics::Estimate;
+use literate::figures::prelude::*;
 
 /// Bars of intervals, which stay behind the marks.
 pub const INTERVAL: Stroke = Stroke::solid(GREY, 30);
