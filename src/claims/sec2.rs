@@ -2,7 +2,6 @@
 
 use super::shared::*;
 use crate::experiments::TWO_MASSES;
-use crate::params::{NEAR_SIMULTANEOUS, SLOW};
 use impact_chain::mode_jump::Passing;
 
 pub fn rules() -> Vec<Rule> {

@@ -3,7 +3,6 @@
 use super::sec8::{VISIBLE, means_in_windows};
 use super::shared::*;
 use crate::experiments::theory::higher::overtaken_in_order;
-use crate::params::{CONVERGENCE_P, HIGHER_P, REMARK_P};
 
 pub fn rules() -> Vec<Rule> {
     let ([a, c, d], [first, last]) = (HIGHER_P, CONVERGENCE_P);

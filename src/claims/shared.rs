@@ -4,7 +4,7 @@ use crate::experiments::ensembles::{Counted, find_ensemble};
 pub use crate::experiments::rise::{Curve, Rise, RisePoint};
 pub(super) use crate::experiments::theory::comparison::{self, LARGE_SIGMA, interpolate};
 pub use crate::experiments::{LENGTHS, MODE_JUMP, PROTOCOL, SEGMENTS, sweep};
-pub use crate::params::{Chain, MethodName, Protocol, VERTICES};
+pub use crate::params::*;
 pub use impact_numerics::estimates::{difference, with_error};
 pub use impact_numerics::statistics::{Estimate, wilson};
 pub use literate::claims::Basis::{FiniteCases, OurMeasure, PrintedDigit, Rounding};

@@ -1,8 +1,6 @@
 //! Runs chains of several lengths from rest, and with a random start after several transients.
 
-use super::ensembles::{Ensembles, ensembles};
 use crate::experiments::prelude::*;
-use impact_chain::Start;
 
 pub const LENGTHS: Ensembles = ensembles("lengths", "lengths", params::lengths, tables);
 

@@ -1,10 +1,7 @@
 //! Runs the simulations of Sec. 2: means and shares at each σ, the rise, and rare events.
 
-use super::ensembles::{Ensembles, ensembles};
 use crate::experiments::prelude::*;
-use crate::params::{NEAR_SIMULTANEOUS, SLOW, printed_threshold};
 use impact_chain::counts::{NEAR_DECADES, SLOW_DECADES, Total};
-use impact_chain::rise::RisePoint;
 
 pub const SWEEP: Ensembles = ensembles("sweep", "main sweep", params::sweep, tables);
 

@@ -1,7 +1,6 @@
 //! Counts circuits: Secs. 3 and 5, Fig. 7.
 
 use super::basics::*;
-use crate::params::GRAPH_MASSES;
 use impact_circuits::graph::Graph;
 use impact_circuits::{commuting, counting};
 use std::f64::consts::LN_10;

@@ -4,7 +4,6 @@ use super::basics::*;
 use super::census::{CENSUS, counted};
 use super::comparison::interpolate;
 use super::law::{law, means, simple};
-use crate::params::{HIGHER_P, REMARK_P};
 use impact_circuits::higher_order::{CLASSES, SHARED, doubled_as_printed, multiplicity};
 use impact_numerics::double_double::DoubleDouble;
 
