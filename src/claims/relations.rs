@@ -72,11 +72,9 @@ fn two_seeds(e: &Evidence<'_>) -> Departures {
     let estimate = |row: &RisePoint| row.mean.filter(|_| row.active >= FEWEST)?.estimate();
     let between = |row: &RisePoint| {
         let same = first.rows.iter().find(|other| other.sigma == row.sigma)?;
-        Some(difference(estimate(same)?, estimate(row)?))
+        Some(difference(estimate(same)?, estimate(row)?)).filter(|between| between.error > 0.0)
     };
-    let differences = second.rows.iter().filter_map(between);
-    let differences: Vec<Estimate> =
-        differences.filter(|difference| difference.error > 0.0).collect();
+    let differences: Vec<Estimate> = second.rows.iter().filter_map(between).collect();
     let quantile = e.level()?.quantile_among(differences.len());
     let share = |difference: &Estimate| difference.value.abs() / (quantile * difference.error);
     departures.extend(differences.iter().map(share));

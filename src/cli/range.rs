@@ -59,10 +59,8 @@ fn numbers_up_to(most: f64, bounds: RangeInclusive<f64>) -> impl Parse<Values> {
     }
 }
 
-/// Times of samples on the command line.
 #[derive(Clone, Debug)]
 pub enum Times {
-    /// Once in each period of the forcing.
     OncePerPeriod,
     Values(Values),
 }

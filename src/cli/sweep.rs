@@ -64,7 +64,6 @@ fn at_least_one(text: &str) -> Result<usize, String> {
     number.filter(|&n| n > 0).ok_or_else(|| "give a whole number, 1 or more".into())
 }
 
-/// Reads a number of realisations, or the range of their numbers.
 fn realisations(text: &str) -> Result<Range<u64>, String> {
     let (from, to) = text.split_once("..").unwrap_or(("0", text));
     let range = from.parse().ok().zip(to.parse().ok()).map(|(from, to)| from..to);
@@ -191,9 +190,7 @@ fn rows(ensemble: Ensemble, progress: &Progress) -> Result<Vec<Vec<String>>, Fai
     let cutting: Cutting<Vec<Ensemble>, Counts, Vec<Counts>> = Cutting {
         rows: CUTTING.rows,
         run_unit: CUTTING.run_unit,
-        join: |_, parts, _| {
-            Ok(parts.into_iter().map(|parts| parts.into_iter().collect()).collect())
-        },
+        join: |_, parts, _| Ok(parts.into_iter().map(Counts::from_iter).collect()),
     };
     let ensembles = vec![ensemble];
     let counts = cutting.run(&ensembles, "sweep", progress)?;

@@ -4,7 +4,6 @@ use crate::experiments::prelude::*;
 
 pub const LENGTHS: Ensembles = ensembles("lengths", "lengths", params::lengths, tables);
 
-/// Returns the chains from rest, with their curves.
 pub fn from_rest(ensembles: &[Counted]) -> impl Iterator<Item = (&Counted, &Curve)> {
     let at_rest = ensembles.iter().filter(|one| one.ensemble.chain.start == Start::Rest);
     at_rest.flat_map(|one| one.curves.iter().map(move |curve| (one, curve)))

@@ -105,13 +105,11 @@ impl Segment {
         times.chain(positions).fold(0.0, f64::max)
     }
 
-    /// Returns the number of masses with an impact.
     pub fn masses_hit(&self) -> usize {
         let both_sides = self.impacts.iter().flat_map(|impact| [impact.gap, impact.gap + 1]);
         both_sides.filter(|body| (1..=self.masses).contains(body)).collect::<BTreeSet<_>>().len()
     }
 
-    /// Returns the number of different instants at which it has impacts.
     fn instants(&self) -> usize {
         self.impacts.chunk_by(|a, b| a.time == b.time).count()
     }

@@ -13,7 +13,6 @@ pub const SECOND_SEED: Ensembles =
 const ABOVE: f64 = 0.2;
 const STICKING: f64 = 0.3;
 
-/// Returns the counts of the main sweep.
 pub fn main_sweep(results: &Results) -> Result<&Counted, Error> {
     let missing = || Error::input(SWEEP.name, "its result has no chains", "run it again");
     find_ensemble(results.of(&SWEEP)?, SWEEP.name).ok_or_else(missing)

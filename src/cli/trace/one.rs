@@ -19,9 +19,7 @@ use std::sync::mpsc::SyncSender;
 /// What every scenario is run with.
 pub struct Job {
     pub args: Args,
-    /// Step or tolerance of the method.
     pub setting: f64,
-    /// The state from which to go on, if there is one.
     pub start: Option<State>,
     /// The bits of the time of the latest event.
     pub latest: Arc<AtomicU64>,

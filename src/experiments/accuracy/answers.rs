@@ -84,15 +84,10 @@ impl Question {
         let engine = self.engine().filter(|engine| engine.is_enough == Some(true));
         let is_near =
             |answer: &Answer| engine.is_some_and(|engine| answer.seconds < TIE * engine.seconds);
+        let is_open = |answer: &Answer| answer.is_enough.is_none() && is_near(answer);
         match self.rival().zip(engine) {
             Some((rival, engine)) if TIE * rival.seconds <= engine.seconds => name_of(Some(rival)),
-            _ if self
-                .answers
-                .iter()
-                .any(|answer| answer.is_enough.is_none() && is_near(answer)) =>
-            {
-                "undecided".into()
-            }
+            _ if self.answers.iter().any(is_open) => "undecided".into(),
             Some((rival, _)) if is_near(rival) => "tie".into(),
             _ => name_of(cheapest(&self.answers)),
         }
@@ -285,7 +280,6 @@ fn questions(biases: &Biases, times: Times) -> Vec<Question> {
     questions
 }
 
-/// Counts the cases in which masses come to rest.
 fn cases_at_rest(trials: &Trials) -> usize {
     let scenes = trials.parameters.scenes.iter().filter(|scene| REST.contains(&&*scene.id));
     scenes.map(|scene| scene.cases.len()).sum()

@@ -1,7 +1,7 @@
 //! Computes what circuits that repeat vertices change: Sec. 9, Figs. 13 and 14.
 
 use super::basics::*;
-use super::census::{CENSUS, counted};
+use super::census::counted;
 use super::comparison::interpolate;
 use super::law::{law, means, simple};
 use impact_circuits::higher_order::{CLASSES, SHARED, doubled_as_printed, multiplicity};
@@ -133,7 +133,7 @@ pub(super) fn higher(curve: &Table, relation: &Table) -> Table {
     const SIMPLE: &str = "simple ones there, a p a different impact";
     const APART: &str = "p at which the means differ most in proportion";
     let eq30 = doubled_as_printed(3, 3);
-    let counted = counted(&CENSUS, 3, 3, &[1]) as u64;
+    let counted = counted(3, 3, &[1]) as u64;
     let jump = |space| expect_known(jump::p_jump(space, VERTICES));
     let (leap, shifted) = (jump(FiveClasses), jump(FiveClassesPrinted).p);
     let [first, _, last] = HIGHER_P;
