@@ -48,14 +48,11 @@ pub fn run(args: Args) -> Result<(), Failure> {
         Some(Times::Values(times)) => times.first().copied(),
         _ => None,
     };
+    let begin = start.as_ref().map_or(0.0, |start| start.time);
     for (option, time) in [("--until", args.until), ("--at", first_sample)] {
-        if let (Some(start), Some(time)) = (&start, time)
-            && time < start.time
-        {
-            let begin = start.time;
-            let message =
-                format!("{option}: {time:?} is before the state, at {begin:?}; give a later time");
-            return Err(Failure::input(message));
+        if let Some(time) = time.filter(|time| *time < begin) {
+            let problem = format!("{time:?} is before the state, at {begin:?}");
+            return Err(Failure::input(format!("{option}: {problem}; give a later time")));
         }
     }
     let latest = Arc::new(AtomicU64::new(0));

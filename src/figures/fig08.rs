@@ -2,7 +2,6 @@
 
 use super::prelude::*;
 use crate::experiments::theory::law::simple;
-use crate::params::{DISTRIBUTION_P, VERTICES as N};
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(5150);

@@ -2,7 +2,6 @@
 
 use super::prelude::*;
 use crate::experiments::theory::law::{means, steps};
-use crate::params::VERTICES as N;
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(7950);

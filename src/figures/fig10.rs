@@ -3,7 +3,6 @@
 use super::prelude::*;
 use crate::experiments::theory::jump::{f, stages, zeros};
 use crate::experiments::theory::law::{k_star, simple, steps};
-use crate::params::VERTICES as N;
 
 /// The p of the rows: those of [`stages`], in their order.
 #[derive(Clone, Copy, PartialEq)]

@@ -4,7 +4,6 @@
 
 use super::prelude::*;
 use crate::experiments::theory::higher::{contributions, five};
-use crate::params::{HIGHER_P, VERTICES as N};
 
 /// Name, symbol, colour and dash of a class.
 type Class = (&'static str, &'static str, RGBColor, Dash);

@@ -3,7 +3,6 @@
 use super::prelude::*;
 use crate::experiments::theory::higher::five;
 use crate::experiments::theory::law::simple;
-use crate::params::{CONVERGENCE_P, VERTICES as N};
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(6950);

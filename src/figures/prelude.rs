@@ -4,7 +4,7 @@ pub(super) use super::encoding::{self, HALF_HEIGHT_LABEL, Look, SIGMA_LABEL, gap
 pub use super::simulated::*;
 pub use crate::experiments::Results;
 pub(super) use crate::experiments::theory::comparison::interpolate;
-pub use crate::params::{MethodName, Protocol, Setting, VERTICES, printed_threshold};
+pub use crate::params::{VERTICES as N, *};
 pub use impact_numerics::statistics::Estimate;
 pub use literate::figures::prelude::*;
 pub use literate::table::Table;

@@ -2,7 +2,6 @@
 
 use super::prelude::*;
 use crate::experiments::theory::large;
-use crate::params::DRAWN_VERTICES;
 
 /// The p N in (a): around the onset, where the sizes differ.
 const RANGE: (f64, f64) = (0.9, 1.5);
