@@ -5,9 +5,7 @@ mod accuracy;
 mod chosen;
 mod ensemble;
 mod ensembles;
-mod grid;
 mod methods;
-mod nucleation;
 mod runs;
 
 pub use accuracy::{
@@ -16,10 +14,8 @@ pub use accuracy::{
 pub use chosen::*;
 pub use ensemble::{Beyond, Ensemble, Heating, lowered};
 pub use ensembles::*;
-pub use grid::Grid;
 pub use impact_chain::{Boundary, Chain, Protocol, Start};
 pub use impact_numerics::estimates::LEVEL;
 pub use literate::experiments::Profile;
 pub use methods::{MethodName, Setting};
-pub use nucleation::{NucleationParams, SeedsParams};
-pub use runs::{Runs, TwoMassesParams};
+pub use runs::{NucleationParams, Runs, SeedsParams, TwoMassesParams};

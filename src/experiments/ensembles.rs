@@ -53,7 +53,6 @@ impl Counted {
         self.curves.iter().find(|curve| curve.protocol == protocol)
     }
 
-    /// Returns the curve of the first window.
     pub fn first_curve(&self) -> &Curve {
         &self.curves[0]
     }
@@ -81,7 +80,6 @@ pub fn unit_rows(ensembles: &Vec<Ensemble>) -> Vec<UnitRow> {
     cases(ensembles).map(row).collect()
 }
 
-/// Counts the impacts of one unit of work.
 pub fn run_unit(
     ensembles: &Vec<Ensemble>,
     unit: &Unit,
@@ -89,10 +87,11 @@ pub fn run_unit(
     progress: &Progress,
 ) -> Result<Counts, Error> {
     let Some((one, sigma)) = cases(ensembles).nth(unit.row) else { return Ok(Counts::default()) };
-    let realisations = one.prepare(sigma);
+    let stopped = || progress.stopped();
+    let realisations = one.prepare(sigma, &stopped);
     let count = |indices| {
         progress.check()?;
-        let counts = realisations.count(indices, &|| progress.stopped());
+        let counts = realisations.count(indices);
         progress.check()?;
         counts.map_err(|source| Error::failed("an ensemble", source))
     };

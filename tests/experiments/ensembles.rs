@@ -17,7 +17,7 @@ fn small() -> Ensemble {
 }
 
 fn run(ensemble: &Ensemble, sigma: f64, realisations: u64) -> Counts {
-    ensemble.prepare(sigma).count(0..realisations, &|| false).unwrap().into_iter().collect()
+    ensemble.prepare(sigma, &|| false).count(0..realisations).unwrap().into_iter().collect()
 }
 
 #[test]
