@@ -1,7 +1,6 @@
 //! Gives the program what people get wrong: one line names the field and the remedy.
 
-use crate::{SCENARIO, folder, program};
-use std::fs;
+use crate::*;
 use std::process::Stdio;
 
 /// Holds the program to refuse a scenario with one line that has all of `words`.

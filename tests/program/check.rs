@@ -1,9 +1,7 @@
 //! Runs `impact-paper check`, and damages the templates: each fault has its file and line.
 
-use crate::{QUICK, ends, templates};
+use crate::*;
 use impact_paper::claims::Basis;
-use std::collections::BTreeMap;
-use std::path::Path;
 
 fn check(folder: &Path, more: &str, code: i32, words: &[&str]) -> String {
     let line = format!("check --profile quick --results r --templates t {more}");

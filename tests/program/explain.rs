@@ -1,6 +1,6 @@
 //! Runs `impact-paper explain` on the report of the quick profile.
 
-use crate::{QUICK, answer, outcome, program, put, refused};
+use crate::*;
 
 fn report() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();

@@ -1,11 +1,8 @@
 //! Runs `impact-paper paper` and `verify`: what runs, what is written, what is left.
 
-use crate::{EXPERIMENTS, QUICK, SCENARIO, answer, ended_with, ends, files, program, put, refused};
-use crate::{sha256, tree};
-use std::fs;
+use crate::*;
 use std::io::{BufRead, BufReader};
-use std::path::Path;
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, Stdio};
 
 #[test]
 fn a_figure_alone_runs_and_writes_no_more_than_it_needs() {

@@ -1,14 +1,13 @@
 //! Runs the verbs that this paper adds to the program: `eval`, `sweep` and `trace`.
 
-use crate::{SCENARIO, answer, ends, folder, program, refused};
+use crate::*;
 use impact_circuits::distribution::{Law, SampleSpace};
 use impact_circuits::impact_probability::ImpactProbability;
 use impact_circuits::{counting, jump};
 use impact_paper::params::{Chain, MethodName};
 use serde_json::{Value, json};
 use std::io::Write;
-use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::Stdio;
 
 fn eval(arguments: &str) -> String {
     answer(Path::new("."), &format!("eval {arguments}"))

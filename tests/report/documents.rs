@@ -1,7 +1,7 @@
 //! Reads the documents by a CommonMark parser, as a host does, and bounds their lengths: a reader
 //! of five minutes, half an hour or a day must not find that one has grown beyond its time.
 
-use super::QUICK;
+use super::*;
 use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
 
 /// Words of prose: no code, no displayed formula, no table, no address of a link, no description

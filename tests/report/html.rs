@@ -1,9 +1,8 @@
 //! Reads the pages by an XML parser, with the results of the quick profile.
 
-use super::QUICK;
+use super::*;
 use literate::report;
 use roxmltree::{Document, Node, ParsingOptions};
-use std::collections::{BTreeMap, BTreeSet};
 
 fn parsed(text: &str) -> Document<'_> {
     let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };

@@ -1,10 +1,8 @@
 //! Reads all imports, and refuses those that DESIGN.md does not allow, and circles.
 
-use super::QUICK;
+use super::*;
 use proc_macro2::{TokenStream, TokenTree};
-use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::path::Path;
 
 /// Crates by the names of their libraries, and the folders of their source.
 const CRATES: [(&str, &str); 8] = [

@@ -1,8 +1,7 @@
 //! Checks that every figure can be read: on a phone, on dark pages, and without colours.
 
-use super::QUICK;
 use super::picture::{Label, Picture, Shape, bounds, pictures};
-use std::collections::{BTreeMap, BTreeSet};
+use super::*;
 
 /// The style of pages; its second part is for dark ones.
 const STYLE: &str = include_str!("../../crates/literate/skin/style/base.css");

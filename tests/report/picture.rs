@@ -1,9 +1,7 @@
 //! Reads a figure as it is seen: its words with their boxes, and the shapes of its data.
 
-use super::QUICK;
+use super::*;
 use roxmltree::{Document, Node};
-use std::collections::BTreeSet;
-use std::path::Path;
 
 /// Numbers of a list such as `1,2 3,4`.
 fn numbers(list: &str) -> Vec<f64> {

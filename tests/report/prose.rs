@@ -1,6 +1,6 @@
 //! Tests that the prose has each equation, figure and claim, and that verdicts follow numbers.
 
-use super::QUICK;
+use super::*;
 use impact_chain::rise::Mean;
 use impact_numerics::estimates::with_error;
 use impact_numerics::statistics::Estimate;

@@ -45,14 +45,14 @@ fn half_heights(lengths: &[&[Pair]]) -> Table {
         .chosen("above_low", SIGMA, LOW, |row| Some(row.0.above.neighbours()?[0]))
         .chosen("above_high", SIGMA, HIGH, |row| Some(row.0.above.neighbours()?[1]))
         .estimate("rest_coarser", SIGMA, COARSER, |row| {
-            row.0.estimate(|pair, without| pair.rest.coarser(without))
+            row.0.estimate(&|pair, without| pair.rest.coarser(without))
         })
         .estimate("above_coarser", SIGMA, COARSER, |row| {
-            row.0.estimate(|pair, without| pair.above.coarser(without))
+            row.0.estimate(&|pair, without| pair.above.coarser(without))
         })
         .computed_by(origin(Branch::coarser), &["rest_coarser", "above_coarser"])
-        .estimate("distance", SIGMA, DISTANCE, |row| row.0.estimate(distance))
-        .estimate("change_of_distance", SIGMA, LATER, |row| row.0.estimate_less(row.1?, distance))
+        .estimate("distance", SIGMA, DISTANCE, |row| row.0.estimate(&distance))
+        .estimate("change_of_distance", SIGMA, LATER, |row| row.0.estimate_less(row.1?, &distance))
         .computed_by(origin(distance), &["distance", "change_of_distance"])
         .done()
 }
@@ -89,12 +89,12 @@ fn compared_lengths(lengths: &[&[Pair]]) -> Table {
         .key("transient", TIME, |(short, _)| short.transient)
         .estimate("from_rest", SIGMA, LESS, |(short, long)| short.estimate_less(long, FROM_REST))
         .estimate("from_above", SIGMA, LESS, |(short, long)| short.estimate_less(long, FROM_ABOVE))
-        .estimate("distance", SIGMA, LESS, |(short, long)| short.estimate_less(long, distance))
+        .estimate("distance", SIGMA, LESS, |(short, long)| short.estimate_less(long, &distance))
         .done()
 }
 
 fn excess(pair: &Pair, sigma: f64) -> Option<Estimate> {
-    pair.estimate(|pair, without| {
+    pair.estimate(&|pair, without| {
         Some(pair.above.share(sigma, without)? - pair.rest.share(sigma, without)?)
     })
 }
@@ -103,7 +103,7 @@ fn shares(pairs: &[Pair]) -> Table {
     const SHARE: &str = "share of all gaps with an impact";
     const EXCESS: &str = "share from above less that from rest";
     let share = |pair: &Pair, branch: fn(&Pair) -> &Branch, sigma: f64| {
-        pair.estimate(|pair, without| branch(pair).share(sigma, without))
+        pair.estimate(&|pair, without| branch(pair).share(sigma, without))
     };
     let mut rows: Vec<(&Pair, f64)> = Vec::new();
     for pair in pairs {
