@@ -114,8 +114,7 @@ fn passings<'a>(e: &Evidence<'a>) -> Result<Vec<(Protocol, &'a Passing)>, Error>
     Ok(passing.filter(|(protocol, _)| protocol.transient >= RELEASED).collect())
 }
 
-/// In each window whose half height has the printed digits, by the criterion of
-/// [`impact_chain::mode_jump`].
+/// By the criterion of [`impact_chain::mode_jump`], where the half height has the printed digits.
 fn mode_jump(e: &Evidence<'_>) -> Judged {
     let [transient, window] = e.numbers("sweep.run", ["transient", "window"])?;
     let row = format!("jump.windows[transient={transient},window={window}]");

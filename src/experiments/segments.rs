@@ -88,8 +88,7 @@ impl Segment {
         Segment { impacts, ..self.clone() }
     }
 
-    /// Returns the largest distance of positions and of impact times one period apart, or infinity
-    /// if the impacts differ.
+    /// Returns the largest distance of two periods, or infinity if their impacts differ.
     fn apart(&self) -> f64 {
         let half = self.impacts.len() / 2;
         let (first, second) = self.impacts.split_at(half);
