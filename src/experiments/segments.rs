@@ -2,7 +2,7 @@
 
 use crate::experiments::prelude::*;
 use impact_circuits::graph::Graph;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 pub const SEGMENTS: Experiment<(), Segments> = Experiment {
     name: "segments",
@@ -73,11 +73,10 @@ impl Segment {
 
     /// Returns how often each different impact is repeated beyond its first time, most first.
     pub fn repeats(&self) -> Vec<(String, usize)> {
-        let mut again: BTreeMap<String, usize> = BTreeMap::new();
-        for name in self.names() {
-            again.entry(name).and_modify(|times| *times += 1).or_insert(0);
-        }
-        let mut repeats: Vec<_> = again.into_iter().filter(|(_, times)| *times > 0).collect();
+        let mut names = self.names();
+        names.sort();
+        let all = names.chunk_by(|a, b| a == b).map(|same| (same[0].clone(), same.len() - 1));
+        let mut repeats: Vec<_> = all.filter(|(_, times)| *times > 0).collect();
         repeats.sort_by_key(|(_, times)| std::cmp::Reverse(*times));
         repeats
     }

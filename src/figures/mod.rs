@@ -33,10 +33,7 @@ mod s10;
 mod s11;
 mod simulated;
 
-use crate::experiments::{
-    BIAS, BRANCHES, MEASURED, MODE_JUMP, NUCLEATION, PROGRAMS, PROTOCOL, RACE, SCALE, SEEDS,
-    SEGMENTS, SPACE_TIME, SWEEP, THEORY, TRIALS,
-};
+use crate::experiments::*;
 use literate::FigureSpec;
 
 /// All figures: first the paper's, then those of this edition.

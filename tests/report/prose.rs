@@ -6,9 +6,7 @@ use impact_numerics::estimates::with_error;
 use impact_numerics::statistics::Estimate;
 use impact_paper::claims::{self, Verdict};
 use impact_paper::experiments::accuracy::case::Outcome::Missed;
-use impact_paper::experiments::{
-    ALL, AnyExperiment, LENGTHS, MODE_JUMP, PROTOCOL, RACE, REPLAY, Results, SCALE, SWEEP, TRIALS,
-};
+use impact_paper::experiments::*;
 use impact_paper::figures;
 use impact_paper::params::MethodName;
 
