@@ -8,8 +8,10 @@ use std::sync::LazyLock;
 pub(crate) const LONGEST: [usize; 6] = [6, 10, 8, 7, 6, 6];
 
 /// Numbers of primitive circuits by (N, length, class).
-static CENSUS: LazyLock<BTreeMap<(usize, usize, Vec<usize>), u128>> = LazyLock::new(|| {
-    let mut census = BTreeMap::new();
+type Census = BTreeMap<(usize, usize, Vec<usize>), u128>;
+
+static CENSUS: LazyLock<Census> = LazyLock::new(|| {
+    let mut census = Census::new();
     for (n, longest) in (1..).zip(LONGEST) {
         for circuit in Graph::of_chain(n - 1).circuits(longest) {
             *census.entry((n, circuit.length(), circuit.repeats())).or_insert(0) += 1;
