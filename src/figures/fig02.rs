@@ -19,7 +19,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     // Where a single gap or all gaps are the most likely number there is no interval.
     let bars = peaks.iter().filter(|(sigma, peak)| modes.contains(&(*sigma, peak.value)));
     let bars: Vec<_> = bars.map(|(s, peak)| (*s, peak.interval[0], peak.interval[1])).collect();
-    panel.bars(Look::MODE.name, &bars, 40, INTERVAL)?;
+    panel.bars(Look::MODE.name, &bars, 40, Stroke::solid(GREY, 30))?;
     draw_printed_threshold(&panel, 1.02 * n as f64)?;
     panel.markers(Look::MODE.name, &modes, Look::MODE.mark)?;
     let mode_label = format!("{}: all gaps", Look::MODE.name);

@@ -3,9 +3,6 @@
 
 use super::prelude::*;
 
-/// Lowest decade of the logarithmic panel.
-const LOWEST: i32 = -8;
-
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(8350);
     let theory = results.table("theory.curve")?;
@@ -16,7 +13,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let y = Axis::up_to(p.iter().chain(&from_rest).map(|p| p.1).fold(0.0, f64::max), "*p*");
     let linear = Frame::new(1300, 430, 8150, 3430);
     let linear = sheet.lettered("(a)", linear, sigma().without_numbers(), y)?;
-    let y = Axis::decades(LOWEST, 0, 2, "*p*");
+    let y = Axis::decades(-8, 0, 2, "*p*");
     let decades = sheet.lettered("(b)", Frame::new(1300, 4130, 8150, 7530), sigma(), y)?;
     let decades = decades.outside(Outside::Cut);
 

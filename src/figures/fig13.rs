@@ -5,14 +5,11 @@
 use super::prelude::*;
 use crate::experiments::theory::higher::{contributions, five};
 
-/// Name, symbol, colour and dash of a class.
-type Class = (&'static str, &'static str, RGBColor, Dash);
-
 /// The sum of all classes: the ground on which the thinner broken lines of the classes are seen.
 const SUM: Stroke = Stroke::solid(GREY, 2 * LINE + 8);
 
-/// The five classes in the order of Eq. (38).
-const CLASSES: [Class; 5] = [
+/// The five classes in the order of Eq. (38): name, symbol, colour and dash.
+const CLASSES: [(&str, &str, RGBColor, Dash); 5] = [
     ("simple circuits", "*ϕ*_{*N*}", GREEN, LONG),
     ("one vertex twice", "*ϕ*_{*N*}^{1}", PURPLE, SHORT),
     ("one vertex three times", "*ϕ*_{*N*}^{1,0}", ORANGE, TWICE),
@@ -30,13 +27,11 @@ const VISIBLE: f64 = 0.02;
 /// from its curve there.
 type Name = (usize, usize, i32, i32);
 
-/// A panel: p, first and last k, step between their numbers, names.
-type Shown = (f64, [f64; 3], &'static [Name]);
-
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(12_100);
     let [small, middle, large] = HIGHER_P;
-    let panels: [Shown; 4] = [
+    // p, first and last k, step between their numbers, names.
+    let panels: [(f64, [f64; 3], &[Name]); 4] = [
         (small, [0.0, 8.0, 2.0], &[(0, 2, 3, -2)]),
         (small, [0.0, 12.0, 4.0], &[(0, 8, 1, -2), (1, 3, 1, -2)]),
         (middle, [0.0, 20.0, 5.0], &[(0, 3, 2, -1), (1, 15, 0, -3)]),

@@ -6,9 +6,6 @@ use crate::experiments::accuracy::race::{DISPLACED, Entry, Race};
 use crate::experiments::{MEASURED, RACE};
 use crate::params::MethodName::*;
 
-/// The rounding of doubles, 2⁻⁵³.
-const ROUNDING: f64 = f64::EPSILON / 2.0;
-
 /// Where names stand in (a).
 const NAMES_IN_A: [Place; 3] = [
     Place { method: Certified, setting: FINEST, offset: (0, 2) },
@@ -56,7 +53,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let by_error = sheet.lettered("(c)", by_error, x, horizon_axis(top))?.outside(Outside::Edge);
 
     chaos(&by_error, race)?;
-    if let Some([_, ceiling, _]) = allowed(race, ROUNDING).filter(|t| t[1] < top) {
+    if let Some([_, ceiling, _]) = allowed(race, f64::EPSILON / 2.0).filter(|t| t[1] < top) {
         let name = "what chaos allows in double precision";
         by_time.level(name, ceiling, Stroke::dashed(GREY, LINE, SHORT))?;
         by_time.label(name, (by_time.x.hi, ceiling), (-1, -1), GREY)?;

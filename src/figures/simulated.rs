@@ -7,9 +7,6 @@ use crate::params::printed_threshold;
 use impact_numerics::statistics::Estimate;
 use literate::figures::prelude::*;
 
-/// Bars of intervals, which stay behind the marks.
-pub const INTERVAL: Stroke = Stroke::solid(GREY, 30);
-
 /// Fewer active realisations have a mean that says more about them than about σ.
 const LEAST_ACTIVE: f64 = 8.0;
 
