@@ -57,7 +57,6 @@ fn half_heights(lengths: &[&[Pair]]) -> Table {
 }
 
 fn fits(lengths: &[&[Pair]]) -> Table {
-    const LIMIT: &str = "distance after unlimited time";
     const AMPLITUDE: &str = "fitted distance at the first transient less the limit";
     const MISFIT: &str = "sum of squares of distances less fitted ones, each over its error";
     let laws = Vec::from_iter(lengths.iter().flat_map(|pairs| LAWS.map(|law| (*pairs, law))));
@@ -66,7 +65,7 @@ fn fits(lengths: &[&[Pair]]) -> Table {
         .table_computed_by(origin(Law::fit))
         .key("masses", "1", |row| row.0[0].masses as f64)
         .text_key("law", |row| row.1.name.into())
-        .estimate("limit", SIGMA, LIMIT, |row| {
+        .estimate("limit", SIGMA, "distance after unlimited time", |row| {
             estimate(row, |fit| fit.limit).filter(|_| row.1.limited)
         })
         .estimate("amplitude", SIGMA, AMPLITUDE, |row| estimate(row, |fit| fit.amplitude))
@@ -99,7 +98,6 @@ fn excess(pair: &Pair, sigma: f64) -> Option<Estimate> {
 
 fn shares(pairs: &[Pair]) -> Table {
     const SHARE: &str = "share of all gaps with an impact";
-    const EXCESS: &str = "share from above less that from rest";
     let share = |pair: &Pair, branch: fn(&Pair) -> &Branch, sigma: f64| {
         pair.estimate(&|pair, without| branch(pair).share(sigma, without))
     };
@@ -117,7 +115,7 @@ fn shares(pairs: &[Pair]) -> Table {
         .key("sigma", SIGMA, |(_, sigma)| *sigma)
         .estimate("from_rest", "1", SHARE, |row| share(row.0, |pair| &pair.rest, row.1))
         .estimate("from_above", "1", SHARE, |row| share(row.0, |pair| &pair.above, row.1))
-        .estimate("excess", "1", EXCESS, |row| excess(row.0, row.1))
+        .estimate("excess", "1", "share from above less that from rest", |row| excess(row.0, row.1))
         .computed_by(origin(excess), &["excess"])
         .done()
 }
