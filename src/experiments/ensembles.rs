@@ -99,21 +99,20 @@ pub fn run_unit(
     Ok(unit.run_in_groups(group_size, stage, count)?.into_iter().flatten().collect())
 }
 
+/// The counts of the units of each row.
+pub type Parts = Vec<Vec<Counts>>;
+
 /// Joins the counts of units of work, and lists those of each ensemble at each σ.
 pub fn join_counts(
     ensembles: &[Ensemble],
-    parts: Vec<Vec<Counts>>,
+    parts: Parts,
 ) -> impl Iterator<Item = (Ensemble, Vec<Counts>)> {
     let mut at_each = parts.into_iter().map(Counts::from_iter);
     let counts = move |one: &Ensemble| at_each.by_ref().take(one.sigmas.len()).collect();
     ensembles.iter().cloned().zip(ensembles.iter().map(counts))
 }
 
-fn join(
-    ensembles: &Vec<Ensemble>,
-    parts: Vec<Vec<Counts>>,
-    progress: &Progress,
-) -> Result<Vec<Counted>, Error> {
+fn join(groups: &Vec<Ensemble>, parts: Parts, progress: &Progress) -> Result<Vec<Counted>, Error> {
     let summarise = |(one, counts): (Ensemble, Vec<Counts>)| {
         let totals = |(&sigma, counts): (&f64, &Counts)| RunTotals {
             sigma,
@@ -143,7 +142,7 @@ fn join(
         let curves = window_indices.map(curve).collect::<Result<_, Error>>()?;
         Ok(Counted { ensemble: one, runs, curves })
     };
-    join_counts(ensembles, parts).map(summarise).collect()
+    join_counts(groups, parts).map(summarise).collect()
 }
 
 /// Runs a function on each item, on all threads, and returns the results in the order of the items;

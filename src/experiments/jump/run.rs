@@ -1,6 +1,6 @@
 //! Counts independent chains at each σ, and finds the jump of the mode in each window.
 
-use crate::experiments::ensembles::join_counts;
+use crate::experiments::ensembles::{Parts, join_counts};
 use crate::experiments::prelude::*;
 use impact_chain::mode_jump::{Histogram, ModeJump, Sample, mode_jump};
 
@@ -43,11 +43,7 @@ impl Jumps {
     }
 }
 
-pub fn join(
-    ensembles: &Vec<Ensemble>,
-    parts: Vec<Vec<Counts>>,
-    progress: &Progress,
-) -> Result<Jumps, Error> {
+pub fn join(ensembles: &Vec<Ensemble>, parts: Parts, progress: &Progress) -> Result<Jumps, Error> {
     let (rings, walls): (Vec<_>, Vec<_>) =
         join_counts(ensembles, parts).partition(|one| one.0.chain.boundary == Boundary::Ring);
     let protocols = ensembles.first().map_or(&[][..], |ensemble| &ensemble.protocols);
