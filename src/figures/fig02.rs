@@ -11,8 +11,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let at = |column: &str| results.number(&format!("{row}.{column}")).ok();
     let (place, below, single) = (at("place"), at("below"), at("single_place"));
     let sheet = Sheet::new(8750);
-    let panel =
-        sheet.lettered("(a)", MAIN, sigma_axis(), gaps_axis(n, 20.0))?.outside(Outside::Cut);
+    let panel = sheet.lettered("(a)", MAIN, sigma_axis(), gaps_axis(n, 20.0))?.outside(Cut);
     let rows = results.table("jump.rows")?;
     let modes = rows.curve(&[], "sigma", "mode")?;
     let peaks = rows.series(&[], "sigma", "peak")?;
@@ -52,7 +51,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let y = Axis::up_to(1.05 * top, "share of chains");
         let y = if i == 0 { y } else { y.without_numbers() };
         let frame = Frame::new(left, 5550, left + 2150, 7850);
-        let panel = sheet.panel(frame, x, y)?.outside(Outside::Cut);
+        let panel = sheet.panel(frame, x, y)?.outside(Cut);
         panel.heading(["(b)", "(c)", "(d)"][i], &format!("*σ* = {}", short(sigma, 4)))?;
         panel.columns("share of chains", &columns, Stroke::solid(RED, HAIR / 2))?;
         // How high the hump is, up to the column of all gaps, which has its standard error.

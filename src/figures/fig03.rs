@@ -8,7 +8,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(7550);
     let n = results.number("sweep.run.gaps")? as usize;
     let (x, y) = (sigma_axis().without_numbers(), gaps_axis(n, 20.0));
-    let panel = sheet.lettered("(a)", MAIN, x, y)?.outside(Outside::Cut);
+    let panel = sheet.lettered("(a)", MAIN, x, y)?.outside(Cut);
     let rows = results.table("sweep.rows")?;
     let swept = |column| rows.curve(&[], "sigma", column);
     let (all, means) = (swept("mean_all")?, simulated_points(results)?);
@@ -27,8 +27,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     }
 
     let (x, y) = (sigma_axis(), Axis::linear(0.0, 1.0, 0.5, 5, "share of chains"));
-    let share = sheet.lettered("(b)", Frame::new(1200, 5200, 8150, 6650), x, y)?;
-    let share = share.outside(Outside::Cut);
+    let share = sheet.lettered("(b)", Frame::new(1200, 5200, 8150, 6650), x, y)?.outside(Cut);
     let fraction = swept("kept")?;
     share.marked_curve(Look::SHARE.name, &fraction, Look::SHARE.mark.2, Look::SHARE.mark)?;
     share.label(Look::SHARE.name, first_point_above(&fraction, 0.5), (5, 0), RED)?;

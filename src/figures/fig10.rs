@@ -72,7 +72,7 @@ fn axis_of_f(p: f64) -> Axis {
 }
 
 fn draw_f(panel: &Panel, p: f64) -> Drawn {
-    let panel = panel.outside(Outside::Cut);
+    let panel = panel.outside(Cut);
     panel.level("zero", 0.0, Stroke::solid(GREY, HAIR))?;
     panel.curve("f", &f(p), Stroke::solid(INK, LINE))?;
     let Some(zeros) = zeros(p) else {

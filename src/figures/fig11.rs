@@ -14,8 +14,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let linear = Frame::new(1300, 430, 8150, 3430);
     let linear = sheet.lettered("(a)", linear, sigma().without_numbers(), y)?;
     let y = Axis::decades(-8, 0, 2, "*p*");
-    let decades = sheet.lettered("(b)", Frame::new(1300, 4130, 8150, 7530), sigma(), y)?;
-    let decades = decades.outside(Outside::Cut);
+    let decades =
+        sheet.lettered("(b)", Frame::new(1300, 4130, 8150, 7530), sigma(), y)?.outside(Cut);
 
     // Both vanish with σ.
     let from_zero = |points: &[(f64, f64)]| [&[(0.0, 0.0)], points].concat();

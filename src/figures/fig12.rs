@@ -6,8 +6,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(5450);
     let n = results.number("sweep.run.gaps")? as usize;
     let threshold = printed_threshold();
-    let panel = sheet.panel(MAIN, sigma_axis(), gaps_axis(n, 20.0))?;
-    let panel = panel.outside(Outside::Cut);
+    let panel = sheet.panel(MAIN, sigma_axis(), gaps_axis(n, 20.0))?.outside(Cut);
     draw_printed_threshold(&panel, 0.0)?;
     let simple = theory_points(results, "simple")?;
     panel.curve(Look::THEORY.name, &simple, Look::THEORY.line)?;

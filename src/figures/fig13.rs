@@ -46,7 +46,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let y = Axis::up_to(most, if i % 2 == 0 { PROBABILITY } else { "" }).column(COLUMN);
         let (left, top) = (1200 + 4050 * (i as i32 % 2), 480 + 2700 * (i as i32 / 2));
         let frame = Frame::new(left, top, left + 2950, top + 1700);
-        let panel = sheet.panel(frame, axis_of_k(x), y)?.outside(Outside::Cut);
+        let panel = sheet.panel(frame, axis_of_k(x), y)?.outside(Cut);
         draw_classes(&panel, LETTERS[i], p)?;
         for &(class, k, right, down) in names {
             let (_, symbol, colour, _) = CLASSES[class];
@@ -61,7 +61,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     {
         let y = Axis::decades(-12, 0, 2, PROBABILITY).between(3e-10, 1.5 * largest(&five(p)));
         let frame = Frame::new(1200, top, 5300, top + 2150);
-        let panel = sheet.panel(frame, axis_of_k(x), y.column(COLUMN))?.outside(Outside::Cut);
+        let panel = sheet.panel(frame, axis_of_k(x), y.column(COLUMN))?.outside(Cut);
         draw_classes(&panel, letter, p)?;
         let ends = contributions(p).into_iter().zip(CLASSES);
         let ends = ends.map(|(y, look)| (format!("{}, {}", look.0, look.1), over_k(&y), look.2));

@@ -6,5 +6,6 @@ pub use crate::experiments::Results;
 pub(super) use crate::experiments::theory::comparison::interpolate;
 pub use crate::params::{VERTICES as N, *};
 pub use impact_numerics::statistics::Estimate;
+pub use literate::figures::prelude::Outside::{Cut, Edge};
 pub use literate::figures::prelude::*;
 pub use literate::table::Table;

@@ -38,8 +38,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
 fn half_heights(sheet: &Sheet, results: &Results, halves: &Table, lengths: &[f64]) -> Drawn {
     let x = Axis::decades(1, 6, 1, "transient *T* (1/*ω*)").between(10.0, 1.25e5);
     let y = Axis::linear(0.06, 0.14, 0.02, 4, HALF_HEIGHT_LABEL).column("half_height (d omega^2)");
-    let panel =
-        sheet.lettered("(a)", Frame::new(1150, 430, 6000, 3930), x, y)?.outside(Outside::Cut);
+    let panel = sheet.lettered("(a)", Frame::new(1150, 430, 6000, 3930), x, y)?.outside(Cut);
     let masses = results.of(&PROTOCOL)?.first().map_or(0, |map| map.ensemble.chain.masses);
     let rest = format!("from rest, *n* = {masses}");
     let bound = results.number("theory.relation.sigma_kept_half")?;

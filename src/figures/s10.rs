@@ -45,12 +45,12 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let top = (race.parameters.until / 50.0).ceil() * 50.0;
     let x = || rivals::time_axis(1.3e4);
     let (by_time, others) = (Frame::new(1100, 430, 8250, 3230), Frame::new(1100, 3800, 8250, 6600));
-    let by_time = sheet.lettered("(a)", by_time, x().without_numbers(), horizon_axis(top))?;
-    let by_time = by_time.outside(Outside::Edge);
-    let others = sheet.lettered("(b)", others, x(), horizon_axis(top))?.outside(Outside::Edge);
+    let by_time =
+        sheet.lettered("(a)", by_time, x().without_numbers(), horizon_axis(top))?.outside(Edge);
+    let others = sheet.lettered("(b)", others, x(), horizon_axis(top))?.outside(Edge);
     let x = Axis::decades(-18, 0, 3, "median error of the next impact (1/*ω*)").between(1e-20, 0.5);
     let by_error = Frame::new(1100, 7750, 8250, 9950);
-    let by_error = sheet.lettered("(c)", by_error, x, horizon_axis(top))?.outside(Outside::Edge);
+    let by_error = sheet.lettered("(c)", by_error, x, horizon_axis(top))?.outside(Edge);
 
     chaos(&by_error, race)?;
     if let Some([_, ceiling, _]) = allowed(race, f64::EPSILON / 2.0).filter(|t| t[1] < top) {
@@ -131,5 +131,5 @@ fn chaos(panel: &Panel, race: &Race) -> Drawn {
     panel.draw_series("interval of the growth", [band])?;
     let line: Vec<_> = grid.iter().map(|(x, t)| (*x, t[1])).collect();
     let stroke = Stroke::dashed(GREY, LINE, SHORT);
-    panel.outside(Outside::Cut).curve("what chaos allows", &line, stroke)
+    panel.outside(Cut).curve("what chaos allows", &line, stroke)
 }
