@@ -3,7 +3,7 @@
 //! promises about the engine.
 
 use super::shared::*;
-use crate::experiments::accuracy::case::Outcome;
+use crate::experiments::accuracy::case::Outcome::{Refused, Right};
 use crate::experiments::{NUCLEATION, RACE, SCALE, SECOND_SEED, TRIALS, lengths};
 use literate::claims::Basis::Statistics;
 
@@ -198,8 +198,7 @@ fn engine_as_promised(e: &Evidence<'_>) -> Departures {
     let mut departures = Vec::new();
     // The engine is the first of the methods.
     let trials = e.results.of(&TRIALS)?.trials.iter().map(|trials| &trials[0]);
-    let wrong =
-        trials.flatten().filter(|outcome| !matches!(outcome, Outcome::Right | Outcome::Refused));
+    let wrong = trials.flatten().filter(|outcome| !matches!(outcome, Right | Refused));
     departures.push(2.0 * wrong.count() as f64);
     let race = e.results.of(&RACE)?.entries.iter();
     if let Some(engine) = race.clone().find(|entry| entry.setting.method == MethodName::Certified) {

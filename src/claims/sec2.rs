@@ -191,8 +191,7 @@ fn by_protocol(e: &Evidence<'_>, name: &str, place: fn(&Rise) -> Option<Estimate
     for (windows, key) in
         [late_curves(e, "protocol")?, random].into_iter().zip(["note_rest", "note_random"])
     {
-        let mut places: Vec<Estimate> =
-            windows.iter().filter_map(|curve| place(&curve.rise)).collect();
+        let mut places = Vec::from_iter(windows.iter().filter_map(|curve| place(&curve.rise)));
         places.sort_by(|a, b| a.value.total_cmp(&b.value));
         let printed = places.iter().filter(|place| (from..to).contains(&place.value)).count();
         (agree, known, all) = (agree + printed, known + places.len(), all + windows.len());

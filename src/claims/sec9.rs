@@ -40,8 +40,7 @@ pub fn rules() -> Vec<Rule> {
 
 fn fig6_repeats(e: &Evidence<'_>) -> Judged {
     let repeats = e.results.of(&SEGMENTS)?.fig06.repeats();
-    let each: Vec<String> =
-        repeats.iter().map(|(name, times)| format!("{name}: {times}")).collect();
+    let each = Vec::from_iter(repeats.iter().map(|(name, times)| format!("{name}: {times}")));
     let times: Vec<String> = repeats.iter().map(|(_, times)| times.to_string()).collect();
     let reads =
         e.statement.printed == format!("{} impacts; {} times", repeats.len(), times.join(", "));

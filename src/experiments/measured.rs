@@ -205,8 +205,7 @@ pub fn tables(measured: &Measured) -> Vec<Table> {
         .real("engine", "us", 2, &meaning, |()| engine)
         .all_measured();
     let single = measured.rows_about(Subject::Engine).chain(measured.rows_about(Subject::Peer));
-    let single: Vec<_> =
-        single.filter(|row| row.chains == 1 && row.horizon_time.is_some()).collect();
+    let single = Vec::from_iter(single.filter(|row| row.chains == 1 && row.horizon_time.is_some()));
     let finest = single.chunk_by(|a, b| (&a.name, a.n) == (&b.name, b.n)).filter_map(<[_]>::last);
     let finest: Vec<_> = finest.collect();
     let chain = Table::builder("measured.chain", &finest, |_| 1)

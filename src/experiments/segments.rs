@@ -139,8 +139,7 @@ pub fn tables(segments: &Segments) -> Vec<Table> {
         .done();
     const INSTANTS: &str = "different times at which it has impacts";
     let exceptions = ["no impact", "impacts at once"].into_iter().zip(&segments.no_circuit);
-    let exceptions: Vec<_> =
-        exceptions.map(|(name, two)| (name, two, two.first_period())).collect();
+    let exceptions = Vec::from_iter(exceptions.map(|(name, two)| (name, two, two.first_period())));
     let exceptions = Table::builder("segments.no_circuit", &exceptions, |_| 1)
         .text_key("orbit", |(name, ..)| name.to_string())
         .count("impacts", "in a period", |(_, _, one)| one.impacts.len() as u64)

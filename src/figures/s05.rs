@@ -89,9 +89,8 @@ fn shares(sheet: &Sheet, shares: &Table, masses: f64) -> Drawn {
                 // Below its points.
                 ("from_above", 1) => ((last.0, first.1.value), (-1, 2)),
                 ("from_rest", 0) => {
-                    let named_point =
-                        points.iter().find(|point| point.1.value >= 0.2).unwrap_or(last);
-                    ((named_point.0, named_point.1.value), (2, 1))
+                    let named = points.iter().find(|point| point.1.value >= 0.2).unwrap_or(last);
+                    ((named.0, named.1.value), (2, 1))
                 }
                 _ => ((last.0, last.1.value), (2, 0)),
             };

@@ -60,8 +60,7 @@ fn links(text: &str) -> [Vec<String>; 2] {
         }
         _ => None,
     };
-    let places =
-        text.split("<a id=\"").skip(1).map(|piece| piece.split('"').next().unwrap().into());
+    let places = text.split("<a id=\"").skip(1).map(|part| part.split('"').next().unwrap().into());
     [events(text).into_iter().filter_map(link).collect(), places.collect()]
 }
 

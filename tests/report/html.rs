@@ -104,8 +104,7 @@ fn every_page_says_how_to_cite_it() {
         let [cite] = boxes[..] else { panic!("{} boxes", boxes.len()) };
         let entry = words(cite);
         assert!(entry.contains(&format!("@misc{{impactpaper2026{},", document.prose)), "{entry}");
-        let authors: Vec<_> =
-            QUICK.paper.edition.authors.iter().map(|(author, _)| *author).collect();
+        let authors = Vec::from_iter(QUICK.paper.edition.authors.iter().map(|(author, _)| *author));
         assert!(authors.iter().all(|author| entry.contains(author)), "{entry}");
         // What Google Scholar reads: a line for each author.
         let metas = elements(&page, "meta");

@@ -14,8 +14,7 @@ fn numbers(list: &str) -> Vec<f64> {
 /// Where the steps of a path end, stroke by stroke.
 fn strokes(d: &str) -> Vec<Vec<(f64, f64)>> {
     let mut strokes: Vec<Vec<(f64, f64)>> = Vec::new();
-    let letters: Vec<usize> =
-        d.match_indices(|c: char| c.is_ascii_alphabetic()).map(|m| m.0).collect();
+    let letters = Vec::from_iter(d.match_indices(|c: char| c.is_ascii_alphabetic()).map(|m| m.0));
     let ends = letters.iter().skip(1).copied().chain([d.len()]);
     for (from, to) in letters.iter().zip(ends) {
         let n = numbers(&d[from + 1..to]);

@@ -68,8 +68,7 @@ impl Law {
     /// Estimates a number of the fit to the distances of one length, or returns `None` if a
     /// distance has no error.
     pub fn estimate(self, pairs: &[Pair], number: fn(&Fit) -> f64) -> Option<Estimate> {
-        let weight =
-            |pair: &Pair| pair.estimate(&distance).map(|own| 1.0 / (own.error * own.error));
+        let weight = |pair: &Pair| pair.estimate(&distance).map(|d| 1.0 / (d.error * d.error));
         let weights = pairs.iter().map(weight).collect::<Option<Vec<f64>>>()?;
         pairs[0].estimate(&|first, without| {
             let log = |pair: &Pair| (self.scale)(pair.transient) - (self.scale)(first.transient);

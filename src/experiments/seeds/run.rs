@@ -143,8 +143,7 @@ mod tests {
         let (chain, sigma) = (Chain { masses: 5, ..Chain::default() }, 0.25);
         let mut normals = NormalPairs::new("test of seeds, whole chains", Seed(1), 0);
         let mut whole = || loop {
-            let forcing: Vec<[f64; 2]> =
-                (0..5).map(|_| normals.pair().map(|x| sigma * x)).collect();
+            let forcing = Vec::from_iter((0..5).map(|_| normals.pair().map(|x| sigma * x)));
             if let [seed] = closing(&chain, &forcing)[..] {
                 return (forcing, seed);
             }

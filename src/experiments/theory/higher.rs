@@ -113,8 +113,7 @@ fn simple_by_different(p: f64) -> f64 {
 /// of 1/100 000 up to 0.04.
 fn largest_step() -> u64 {
     // Each k has the same p^k in all its weights.
-    let logs: Vec<f64> =
-        by_different(1.0, &multiplicities()).into_iter().map(pxfm::f_log).collect();
+    let logs = Vec::from_iter(by_different(1.0, &multiplicities()).into_iter().map(pxfm::f_log));
     let top = |i: u32| {
         let log_p = pxfm::f_log(f64::from(i) / 1e5);
         let weights = (1_u32..).zip(&logs).map(|(k, log)| (k, log + f64::from(k) * log_p));

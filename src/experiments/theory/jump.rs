@@ -94,8 +94,7 @@ pub(crate) fn flat() -> [f64; 2] {
 pub(crate) fn mean_slopes(p: f64) -> [f64; 2] {
     let mean = law(Simple, p).mean();
     let squares = (1..).map(f64::from).map(|k: f64| (k - mean) * (k - mean));
-    let variance: f64 =
-        squares.zip(law(Simple, p).probabilities()).map(|(square, q)| q * square).sum();
+    let variance: f64 = squares.zip(law(Simple, p).probabilities()).map(|(x, q)| q * x).sum();
     let step = 1e-5 * p;
     [variance / p, (law(Simple, p + step).mean() - law(Simple, p - step).mean()) / (2.0 * step)]
 }
