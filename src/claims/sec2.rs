@@ -146,8 +146,7 @@ fn mode_jump(e: &Evidence<'_>) -> Judged {
     };
     let is_sure = e.number(&format!("{row}.single_jumps")).is_ok();
     let key = if is_sure { "note_single" } else { "note_single_open" };
-    let note = e.sentence(key, numbers![lower, above, single])?;
-    Ok(with_more(check, note))
+    Ok(with_more(check, e.sentence(key, numbers![lower, above, single])?))
 }
 
 /// Against a chain in which each gap closes by itself: its rise from a quarter to three quarters,
@@ -250,8 +249,7 @@ fn three_way(e: &Evidence<'_>) -> Judged {
     let room = quantile * expected.sqrt() + 1.0 + quantile;
     let share = expected.max(seen) / impacts;
     // Masses in contact pass a hit on to one another at once.
-    let excess = seen - expected;
-    let by_chance = (-room..=room + phases).contains(&excess);
+    let by_chance = (-room..=room + phases).contains(&(seen - expected));
     let (near, negligible) = (NEAR_SIMULTANEOUS, NEGLIGIBLE);
     let reached = near * negligible * impacts / expected;
     e.check(

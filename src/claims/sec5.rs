@@ -60,8 +60,7 @@ fn masses_of_circuit(e: &Evidence<'_>) -> Judged {
     }
     let involved = bodies(&gaps, segment.masses);
     let is_as_printed = involved as f64 == e.statement.number()?;
-    let holds = is_as_printed && right == sets;
-    let check = e.check(holds, numbers![found = involved, right, sets])?;
+    let check = e.check(is_as_printed && right == sets, numbers![found = involved, right, sets])?;
     Ok(check.explained_if(is_as_printed && as_predicted))
 }
 

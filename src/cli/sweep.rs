@@ -179,8 +179,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     // Each thread has a chain, 300 bytes a mass and some for its gaps; realisations leave counts.
     let threads = args.threads.number() as u128;
     check_memory(threads * 360 * args.masses as u128 + (1 << 10) * realisations as u128)?;
-    let progress = Progress::on_stderr();
-    let rows = args.threads.run(|| rows(ensemble, &progress))?;
+    let rows = args.threads.run(|| rows(ensemble, &Progress::on_stderr()))?;
     let header = COLUMNS.map(|(name, ..)| name.to_string()).into();
     print(&DataFile { name: "sweep.csv".into(), header, rows }.to_csv())
 }

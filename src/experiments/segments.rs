@@ -89,8 +89,7 @@ impl Segment {
 
     /// Returns the largest distance of two periods, or infinity if their impacts differ.
     fn apart(&self) -> f64 {
-        let half = self.impacts.len() / 2;
-        let (first, second) = self.impacts.split_at(half);
+        let (first, second) = self.impacts.split_at(self.impacts.len() / 2);
         let same = first.iter().map(|impact| impact.gap).eq(second.iter().map(|impact| impact.gap));
         if !same || self.times.len().is_multiple_of(2) {
             return f64::INFINITY;
@@ -181,8 +180,7 @@ pub fn read(session: &Session<'_>) -> Result<Segments, Error> {
         .map(|(start, forces, from)| {
             let chain = Chain { masses: 2, start, ..Chain::default() };
             let period = std::f64::consts::TAU / chain.forcing_frequency;
-            let forcing = forces.map(|force| [force, 0.0]).to_vec();
-            Scenario::given(&chain, forcing)
+            Scenario::given(&chain, forces.map(|force| [force, 0.0]).to_vec())
                 .and_then(|pair| record(&pair, from * period, (from + 2.0) * period))
                 .map_err(failure)
         });

@@ -50,8 +50,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         }
         let y = Axis::up_to(1.05 * top, "share of chains");
         let y = if i == 0 { y } else { y.without_numbers() };
-        let frame = Frame::new(left, 5550, left + 2150, 7850);
-        let panel = sheet.panel(frame, x, y)?.outside(Cut);
+        let panel = sheet.panel(Frame::new(left, 5550, left + 2150, 7850), x, y)?.outside(Cut);
         panel.heading(["(b)", "(c)", "(d)"][i], &format!("*σ* = {}", short(sigma, 4)))?;
         panel.columns("share of chains", &columns, Stroke::solid(RED, HAIR / 2))?;
         // How high the hump is, up to the column of all gaps, which has its standard error.

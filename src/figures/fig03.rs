@@ -12,8 +12,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let rows = results.table("sweep.rows")?;
     let swept = |column| rows.curve(&[], "sigma", column);
     let (all, means) = (swept("mean_all")?, simulated_points(results)?);
-    let mean = interpolate(&means, printed_threshold());
-    draw_printed_threshold(&panel, mean.unwrap_or(0.0))?;
+    draw_printed_threshold(&panel, interpolate(&means, printed_threshold()).unwrap_or(0.0))?;
     panel.curve(Look::ALL.name, &all, Look::ALL.line)?;
     panel.estimates(Look::ACTIVE.name, &simulated(results)?, Look::ACTIVE.mark)?;
     panel.label(Look::ACTIVE.name, (panel.x.hi, n as f64), (-1, 3), RED)?;

@@ -14,8 +14,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let y = Axis::up_to(top, "*P*(*X* = *k*)");
         let edge = 480 + 3100 * i as i32;
         let (frame, p) = (Frame::new(1200, edge, 8150, edge + 2450), short(at, 3));
-        let head = format!("{} *p* = {p}", LETTERS[i]);
-        let panel = sheet.lettered(&head, frame, x, y)?;
+        let panel = sheet.lettered(&format!("{} *p* = {p}", LETTERS[i]), frame, x, y)?;
         panel.set_suffix(LETTERS[i]);
         for (name, values, side, stroke) in [
             ("simple circuits", simple(at), -1, Look::THEORY.line),

@@ -62,8 +62,7 @@ fn half_heights(sheet: &Sheet, results: &Results, halves: &Table, lengths: &[f64
         }
     }
     panel.label_ends(&ends)?;
-    let start = map.get(3).copied().unwrap_or((10.0, bound));
-    panel.label_nearby(&rest, start, (1, -1), GREY)
+    panel.label_nearby(&rest, map.get(3).copied().unwrap_or((10.0, bound)), (1, -1), GREY)
 }
 
 /// Shares after the first transient and after the last.

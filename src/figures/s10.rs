@@ -130,6 +130,5 @@ fn chaos(panel: &Panel, race: &Race) -> Drawn {
     let band = Polygon::new(below.chain(above).collect::<Vec<_>>(), GREY.mix(0.35));
     panel.draw_series("interval of the growth", [band])?;
     let line: Vec<_> = grid.iter().map(|(x, t)| (*x, t[1])).collect();
-    let stroke = Stroke::dashed(GREY, LINE, SHORT);
-    panel.outside(Cut).curve("what chaos allows", &line, stroke)
+    panel.outside(Cut).curve("what chaos allows", &line, Stroke::dashed(GREY, LINE, SHORT))
 }

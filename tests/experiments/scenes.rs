@@ -55,8 +55,7 @@ fn fly(scenario: &Scenario, start: &State, until: f64, slow: f64) -> (Vec<Impact
         let (time, closing_speed) = (hit.time.hi, hit.closing_speed.hi);
         impacts.push(Impact { time, gap: hit.gap, closing_speed });
     }
-    let state = state(scenario, &chain, chain.time);
-    (impacts, state)
+    (impacts, state(scenario, &chain, chain.time))
 }
 
 fn state(scenario: &Scenario, chain: &Reference, time: Dd) -> State {
@@ -70,8 +69,7 @@ fn state(scenario: &Scenario, chain: &Reference, time: Dd) -> State {
 
 /// Lets bodies go that touch without a relative speed.
 fn let_go(scenario: &Scenario, start: &State) -> State {
-    let later = Dd::from(start.time + APART);
-    state(scenario, &Reference::at(scenario, start), later)
+    state(scenario, &Reference::at(scenario, start), Dd::from(start.time + APART))
 }
 
 /// The first time from `from` on at which the forces pull a gap apart.
@@ -137,8 +135,7 @@ fn pressed_together(scenario: &Scenario, start: &State, until: f64) -> Vec<Impac
 /// Masses that fly on together after infinitely many impacts.
 fn collapsed(scenario: &Scenario, start: &State, until: f64) -> Vec<Impact> {
     let (mut impacts, after) = fly(scenario, start, until, SLOW);
-    let together = let_go(scenario, &joined(&after));
-    impacts.extend(fly(scenario, &together, until, 0.0).0);
+    impacts.extend(fly(scenario, &let_go(scenario, &joined(&after)), until, 0.0).0);
     impacts
 }
 
@@ -152,8 +149,7 @@ fn figures_5_and_6_show_their_circuits() {
         let json = std::fs::read_to_string(&path).unwrap();
         let saved: serde_json::Value = serde_json::from_str(&json).unwrap();
         let scenario = Scenario::from_json(&saved["scenario"].to_string()).unwrap();
-        let until = saved["until"].as_f64().unwrap();
-        let hits = Reference::new(&scenario).run(until).unwrap();
+        let hits = Reference::new(&scenario).run(saved["until"].as_f64().unwrap()).unwrap();
         assert_eq!(saved["order"], serde_json::json!(order));
         assert_eq!(hits.iter().map(|hit| hit.gap).collect::<Vec<_>>(), order);
         // A grazing impact is no clear picture, nor are two at once.

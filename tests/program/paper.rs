@@ -18,8 +18,7 @@ fn a_figure_alone_runs_and_writes_no_more_than_it_needs() {
     assert!(written.contains_key("figures/fig03.svg"), "{:?}", written.keys());
     assert!(written.keys().all(|name| name.contains("fig03") || name == "SHA256SUMS"));
     let name = "sweep-quick.json".to_string();
-    let only = [(name.clone(), QUICK.results[&name].clone())];
-    assert_eq!(files(&here.join("r")), only.into());
+    assert_eq!(files(&here.join("r")), [(name.clone(), QUICK.results[&name].clone())].into());
 }
 
 #[test]

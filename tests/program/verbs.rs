@@ -125,8 +125,7 @@ fn parts_windows_and_parameters_of_a_sweep() {
     let impacts = |options: &str| cells(options)[0][8].parse::<u64>().unwrap();
     let parts = ["0..10", "10..24"].map(|part| impacts(&format!(" --realisations {part}")));
     assert_eq!(impacts(""), parts.iter().sum::<u64>());
-    let both = cells(" --transient 10,50 --window 40");
-    for (transient, row) in ["10", "50"].into_iter().zip(&both) {
+    for (transient, row) in ["10", "50"].into_iter().zip(&cells(" --transient 10,50 --window 40")) {
         let alone = cells(&format!(" --transient {transient} --window 40"));
         assert_eq!((&row[1..8], &row[16..]), (&alone[0][1..8], &alone[0][16..]), "{transient}");
     }

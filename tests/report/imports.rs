@@ -88,8 +88,7 @@ impl Modules {
                     i = end;
                 }
                 ("mod", _, Some(TokenTree::Group(items))) if top => {
-                    let child = [path, &[sign(i + 1)]].concat();
-                    self.read(&child, &module.file, items.stream());
+                    self.read(&[path, &[sign(i + 1)]].concat(), &module.file, items.stream());
                     i += 2;
                 }
                 (
@@ -248,8 +247,7 @@ fn imports_are_those_of_the_drawing() {
             let rest = inside.strip_prefix(name);
             rest.is_some_and(|rest| rest.starts_with('/') || rest.starts_with(".rs"))
         };
-        let matching = layers.iter().filter(|(name, _)| is_in(name));
-        matching.max_by_key(|(name, _)| name.len())
+        layers.iter().filter(|(name, _)| is_in(name)).max_by_key(|(name, _)| name.len())
     };
     let mut wrong = Vec::new();
     for (from, to) in arrows() {

@@ -15,8 +15,7 @@ fn numbers(list: &str) -> Vec<f64> {
 fn strokes(d: &str) -> Vec<Vec<(f64, f64)>> {
     let mut strokes: Vec<Vec<(f64, f64)>> = Vec::new();
     let letters = Vec::from_iter(d.match_indices(|c: char| c.is_ascii_alphabetic()).map(|m| m.0));
-    let ends = letters.iter().skip(1).copied().chain([d.len()]);
-    for (from, to) in letters.iter().zip(ends) {
+    for (from, to) in letters.iter().zip(letters.iter().skip(1).copied().chain([d.len()])) {
         let n = numbers(&d[from + 1..to]);
         let (x, y) = strokes.last().and_then(|stroke| stroke.last().copied()).unwrap_or_default();
         let end = match &d[*from..from + 1] {

@@ -74,8 +74,7 @@ fn judged(results: &Results, expected: &[(&str, Verdict)]) {
     rules.retain(|rule| expected.iter().any(|(id, _)| *id == rule.id));
     let checks = claims::judge_all(&QUICK.published, &rules, results).unwrap();
     for (id, verdict) in expected {
-        let judged_as = checks.iter().find(|check| check.id == *id).unwrap().verdict;
-        assert_eq!(judged_as, *verdict, "{id}");
+        assert_eq!(checks.iter().find(|check| check.id == *id).unwrap().verdict, *verdict, "{id}");
     }
 }
 

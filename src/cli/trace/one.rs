@@ -63,8 +63,7 @@ impl Run<'_> {
     }
 
     fn hand_on(&mut self) {
-        let block = std::mem::take(&mut self.block);
-        self.is_wanted &= self.sender.send(Part::Rows(block)).is_ok();
+        self.is_wanted &= self.sender.send(Part::Rows(std::mem::take(&mut self.block))).is_ok();
     }
 
     /// Runs the scenario of a text; returns how that went, and what is to be noted.

@@ -229,8 +229,7 @@ fn question(
         } else {
             interval(off, chains, result.error)
         };
-        let is_enough = is_within(interval, tolerance);
-        Some(Answer { setting, seconds, chains, result, is_enough })
+        Some(Answer { setting, seconds, chains, result, is_enough: is_within(interval, tolerance) })
     };
     let answers = ensembles[0].0.settings.iter().filter_map(answer).collect();
     Some(Question { id, words, answers })
@@ -272,8 +271,7 @@ fn questions(biases: &Biases, times: Times) -> Vec<Question> {
         let slope = (above - below) / (high - low);
         let (part, height) = ((half - below) / (above - below), low + (half - below) / slope);
         let lower = |[a, b]: [&[f64; 2]; 2]| (1.0 - part) * (a[1] - a[0]) + part * (b[1] - b[0]);
-        let both = pairs[0].iter().zip(&pairs[1]);
-        both.map(|(a, b)| lower([a, b]) / slope / height).collect()
+        pairs[0].iter().zip(&pairs[1]).map(|(a, b)| lower([a, b]) / slope / height).collect()
     }));
     questions
 }

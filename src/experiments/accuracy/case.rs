@@ -229,8 +229,7 @@ mod tests {
             return Ok(Cost::default());
         }
         Certified.run(task, &mut |Impact { time, gap, closing_speed }| {
-            let closing_speed = closing_speed * (1.0 + by);
-            sink(Impact { time: time + by, gap, closing_speed })
+            sink(Impact { time: time + by, gap, closing_speed: closing_speed * (1.0 + by) })
         })
     }
 

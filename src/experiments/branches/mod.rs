@@ -22,9 +22,9 @@ pub const BRANCHES: Experiment<Vec<Ensemble>, Vec<Chains>, Counts> = Experiment 
 
 fn join(groups: &Vec<Ensemble>, parts: Parts, progress: &Progress) -> Result<Vec<Chains>, Error> {
     progress.check()?;
-    let chains = |(ensemble, counts): (Ensemble, Vec<Counts>)| {
-        let counts = counts.into_iter().map(|counts| counts.distinct).collect();
-        Chains { ensemble, counts }
+    let chains = |(ensemble, counts): (Ensemble, Vec<Counts>)| Chains {
+        ensemble,
+        counts: counts.into_iter().map(|counts| counts.distinct).collect(),
     };
     Ok(join_counts(groups, parts).map(chains).collect())
 }

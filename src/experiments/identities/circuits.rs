@@ -14,8 +14,7 @@ pub(super) fn impact_types() -> Cases {
     cases((1..=20).map(|masses| {
         let graph = Graph::of_chain(masses);
         let at_wall = |&v: &usize| graph.label(v).starts_with('L') || graph.label(v).ends_with('R');
-        let walls = (0..graph.vertices()).filter(at_wall).count();
-        graph.vertices() == masses + 1 && walls == 2
+        graph.vertices() == masses + 1 && (0..graph.vertices()).filter(at_wall).count() == 2
     }))
 }
 

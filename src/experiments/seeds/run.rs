@@ -21,14 +21,12 @@ pub struct Seeds {
 
 impl Seeds {
     pub fn new(parameters: SeedsParams, rows: Vec<Part>) -> Seeds {
-        let predicted = predictions(&parameters, &sums(&parameters, &rows));
-        Seeds { parameters, rows, predicted }
+        Seeds { predicted: predictions(&parameters, &sums(&parameters, &rows)), parameters, rows }
     }
 }
 
 pub fn run(parameters: &SeedsParams, progress: &Progress) -> Result<Seeds, Error> {
-    let chains = parameters.sigmas.len() * parameters.realisations;
-    let stage = progress.stage("seeds", chains as u64);
+    let stage = progress.stage("seeds", (parameters.sigmas.len() * parameters.realisations) as u64);
     let rows = parameters.sigmas.iter().map(|&sigma| {
         let one = |index| trace(parameters, sigma, index, progress);
         run_each(&stage, progress, 0..parameters.realisations as u64, one)

@@ -105,8 +105,7 @@ pub(crate) fn overtaken_in_order() -> bool {
 
 /// Returns the share of simple circuits in the distribution of [`by_different`].
 fn simple_by_different(p: f64) -> f64 {
-    let weights = sum(by_different(p, &multiplicities()));
-    f64::from(SHARED as u32) * sum(simple(p)) / weights
+    f64::from(SHARED as u32) * sum(simple(p)) / sum(by_different(p, &multiplicities()))
 }
 
 /// Returns the largest step of k* in the distribution of [`by_different`], on a grid of p in steps

@@ -60,8 +60,7 @@ pub fn stages() -> [f64; 4] {
 
 /// Returns f_{N,p}(k) on [0, N], four points to a unit of k.
 pub fn f(p: f64) -> Vec<(f64, f64)> {
-    let ks = (0..=VERTICES * 4).map(|i| i as f64 / 4.0);
-    ks.map(|k| (k, jump::f(VERTICES, p, k))).collect()
+    (0..=VERTICES * 4).map(|i| i as f64 / 4.0).map(|k| (k, jump::f(VERTICES, p, k))).collect()
 }
 
 /// Returns the zeros of f_{N,p}; at the double nearest to p_crit both are 1/√p, on whichever side
