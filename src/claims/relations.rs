@@ -155,10 +155,9 @@ fn above_stays_above(e: &Evidence<'_>) -> Departures {
 
 fn branches_approach(e: &Evidence<'_>) -> Departures {
     let table = e.results.table("branches.half_heights")?;
-    let changes = table.series(&[], "transient", "change_of_distance")?;
     let quantile = e.level()?.quantile;
     let part = |(_, change): &(f64, Estimate)| over(change.value, quantile * change.error);
-    Ok(changes.iter().map(part).collect())
+    Ok(table.series(&[], "transient", "change_of_distance")?.iter().map(part).collect())
 }
 
 fn seeds_before_circuits(e: &Evidence<'_>) -> Departures {
