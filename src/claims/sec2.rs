@@ -36,8 +36,7 @@ pub fn rules() -> Vec<Rule> {
 
 fn parameters(e: &Evidence<'_>) -> Judged {
     let chain = &sweep::main_sweep(e.results)?.ensemble.chain;
-    let (n, d, omega, r) =
-        (chain.masses, chain.spacing, chain.natural_frequency, chain.restitution);
+    let Chain { masses: n, spacing: d, natural_frequency: omega, restitution: r, .. } = *chain;
     let square = chain.forcing_frequency * chain.forcing_frequency;
     let printed = e.published.parameter("forcing_frequency_squared")?;
     let same = (square - printed).abs() <= 4.0 * f64::EPSILON && omega == d;

@@ -72,10 +72,7 @@ pub fn protocol(profile: Profile) -> Vec<Ensemble> {
 
 /// The paper's chain, and chains that differ from it in start, ends or frequency.
 pub fn starts(profile: Profile) -> Vec<Ensemble> {
-    let (step, realisations) = match profile {
-        Profile::Full => (1, 100),
-        Profile::Quick => (2, 4),
-    };
+    let (step, realisations) = if profile == Profile::Quick { (2, 4) } else { (1, 100) };
     let variant = |name: &str, [from, to]: [u32; 2], change: fn(&mut Chain)| {
         let sigmas = Grid::default().and((from..=to).step_by(step), 100);
         let mut one = Ensemble { stream: "starts".into(), ..paper(name, sigmas, realisations) };
