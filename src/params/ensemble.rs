@@ -101,7 +101,8 @@ impl Ensemble {
         (self.chain.masses as f64 * (1.0 + impacts)) as u64
     }
 
-    /// Prepares the simulation of its realisations at a σ, which ends when `stopped` returns true.
+    /// Prepares the simulation of its realisations at a σ, which ends early when `stopped` returns
+    /// true.
     pub fn prepare<'a>(&'a self, sigma: f64, stopped: Stopped<'a>) -> Realisations<'a> {
         let heating = self.heating.map(|heating| Abreast::new(&self.chain, &[], heating.time));
         let counting = Counting::new(&self.chain, &self.protocols, self.until(sigma));

@@ -52,7 +52,9 @@ fn advance(parameters: &SeedsParams, rows: &[RunsAtSigma<'_>]) -> Table {
     Table::builder("seeds.advance", &rows, |(row, _)| row.runs.len())
         .key("sigma", SIGMA, |(row, _)| row.sigma)
         .key("time", TIME, |(_, bin)| *bin as f64 * parameters.bin)
-        .real("advance", "1", 3, "gaps passed by a front", |row| row.0.sums[GROUPS].advance(row.1))
+        .real("advance", "1", 3, "gaps passed by a front", |(row, bin)| {
+            row.sums[GROUPS].advance(*bin)
+        })
         .done()
 }
 
