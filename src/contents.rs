@@ -17,7 +17,7 @@ use literate::value::{Value, origin};
 use serde_json::{Value as Json, json};
 use std::collections::BTreeMap;
 
-/// Returns the level of the checks, and the version of the program.
+/// The level of the checks, and the version of the program.
 pub fn values(_: &Results, _: &Published) -> Result<Vec<Value>, Failure> {
     let level = claims::level();
     let values = [
@@ -29,7 +29,8 @@ pub fn values(_: &Results, _: &Published) -> Result<Vec<Value>, Failure> {
     Ok(values.map(|value| value.source(origin(claims::level))).into())
 }
 
-/// Returns rows and heads of the generated tables, by the names that templates use.
+/// The rows of the generated tables, by the name that templates use, with heads and words that
+/// depend on the results.
 pub fn rows(results: &Results, checks: &[Check]) -> Result<BTreeMap<&'static str, Json>, Failure> {
     let trials = results.of(&TRIALS)?;
     let statements = Vec::from_iter(checks.iter().filter(|check| check.kind == Kind::Statement));

@@ -113,7 +113,8 @@ fn passings<'a>(e: &Evidence<'a>) -> Result<Vec<(Protocol, &'a Passing)>, Error>
     Ok(passing.filter(|(protocol, _)| protocol.transient >= RELEASED).collect())
 }
 
-/// By the criterion of [`impact_chain::mode_jump`], where the half height has the printed digits.
+/// In each window whose half height has the printed digits, by the criterion of
+/// [`impact_chain::mode_jump`].
 fn mode_jump(e: &Evidence<'_>) -> Judged {
     let [transient, window] = e.numbers("sweep.run", ["transient", "window"])?;
     let row = format!("jump.windows[transient={transient},window={window}]");

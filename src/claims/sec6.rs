@@ -35,7 +35,8 @@ fn step(e: &Evidence<'_>) -> Judged {
     e.check(largest * 10.0 >= VERTICES as f64 && second == 1.0, numbers![largest, second])
 }
 
-/// At p = 0 itself the weights are 0/0: a value there is a convention.
+/// At p = 0 itself the weights are 0/0: a value there is a convention, which is neither right nor
+/// wrong.
 fn mean_zero(e: &Evidence<'_>) -> Judged {
     let least = e.number("theory.mean.at_zero")?;
     e.check((least == e.statement.number()?).then_some(true), numbers![least])

@@ -130,7 +130,8 @@ fn means_of(curve: &Curve) -> Vec<(f64, f64)> {
     curve.rows.iter().filter_map(mean).collect()
 }
 
-/// Returns the same in each window of the map of protocols that begins late enough.
+/// Returns the simulated means against σ in each window of the map of protocols that begins late
+/// enough after the release.
 pub(super) fn means_in_windows(e: &Evidence<'_>) -> Result<Vec<Vec<(f64, f64)>>, Error> {
     Ok(late_curves(e, "protocol")?.into_iter().map(means_of).collect())
 }
@@ -164,7 +165,8 @@ fn large_sigma(e: &Evidence<'_>) -> Judged {
     e.check(far <= limit, numbers)
 }
 
-/// By the half heights of theory and simulation in all windows of the map of protocols.
+/// By the half heights in all windows of the map of protocols: of theory and simulation, each of
+/// half of all gaps.
 fn threshold_shift(e: &Evidence<'_>) -> Judged {
     let half = e.estimate("sweep.rise.half_height")?;
     let theory = e.number("theory.relation.sigma_half")?;

@@ -57,7 +57,8 @@ pub enum Times {
     Values(Values),
 }
 
-/// Returns a parser of `period`, or of times up to `latest` that do not fall, however many.
+/// Returns a parser of times up to `latest` that rise or stay, as many as memory holds, or of
+/// `period`.
 pub fn times(latest: f64) -> impl Parse<Times> {
     move |text: &str| {
         if text == "period" {

@@ -47,7 +47,8 @@ impl Run {
         &self.outcomes[&scene.id]
     }
 
-    /// Returns the difficulty of a scene down to which all cases are right, or `None` without one.
+    /// Returns the smallest difficulty of a scene down to which all cases are right, or `None` if
+    /// the easiest case is not.
     fn hardest(&self, scene: &str) -> Option<f64> {
         let scene = scenes().into_iter().find(|other| other.id == scene)?;
         let mut cases: Vec<_> = scene.cases.iter().zip(self.trial(&scene)).collect();

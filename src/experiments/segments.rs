@@ -87,7 +87,8 @@ impl Segment {
         Segment { impacts, ..self.clone() }
     }
 
-    /// Returns the largest distance of two periods, or infinity if their impacts differ.
+    /// Returns the largest distance of positions and of impact times one period apart, or infinity
+    /// if the impacts differ.
     fn apart(&self) -> f64 {
         let (first, second) = self.impacts.split_at(self.impacts.len() / 2);
         let same = first.iter().map(|impact| impact.gap).eq(second.iter().map(|impact| impact.gap));

@@ -35,7 +35,8 @@ struct Answer {
     chains: usize,
     /// The error, or the share of runs that are right to the time that is asked.
     result: Estimate,
-    /// Whether this is surely within what is allowed, or `None` if chains do not tell.
+    /// Whether this is surely within what is allowed or surely not, or `None` if chains do not
+    /// tell.
     is_enough: Option<bool>,
 }
 
@@ -71,7 +72,8 @@ impl Question {
         self.answers.iter().find(|answer| answer.setting.method == Certified)
     }
 
-    /// Returns how much faster the faster of engine and rival is, or `None` without one of them.
+    /// Returns by what factor the engine or its fastest rival is faster than the other, or `None`
+    /// if one of them does not answer.
     fn lead(&self) -> Option<f64> {
         let ratio = self.rival()?.seconds / self.engine()?.seconds;
         Some(ratio.max(1.0 / ratio))

@@ -16,7 +16,8 @@ pub fn make(chains: &Vec<Chains>) -> Vec<Table> {
     ]
 }
 
-/// Makes the table of half heights, with changes since the transient before and until the last.
+/// Makes the table of half heights after each transient, with changes since the one before it and
+/// until the last.
 fn half_heights(lengths: &[&[Pair]]) -> Table {
     const DISTANCE: &str = "half height from rest less that from above";
     const LATER: &str = "the same less that after the transient before";
@@ -74,7 +75,8 @@ fn fits(lengths: &[&[Pair]]) -> Table {
         .done()
 }
 
-/// Makes the table of half heights of the shorter chains less those of the longer ones.
+/// Makes the table of half heights of the shorter chains less those of the longer ones, which begin
+/// with the same forces.
 fn compared_lengths(lengths: &[&[Pair]]) -> Table {
     const LESS: &str = "that of the shorter chains less that of the longer ones";
     let mut rows: Vec<(&Pair, &Pair)> = Vec::new();

@@ -7,7 +7,8 @@ use impact_chain::rise::Mean;
 /// From here on σ is called large (ours).
 pub(crate) const LARGE_SIGMA: f64 = 0.2;
 
-/// Interpolates a curve linearly at a σ, or returns `None` outside of its range.
+/// Returns the value of a curve at any σ in its range, linear between its points, or `None`
+/// outside.
 pub(crate) fn interpolate(curve: &[(f64, f64)], sigma: f64) -> Option<f64> {
     let w = curve.windows(2).find(|w| w[0].0 <= sigma && sigma <= w[1].0)?;
     let share = (sigma - w[0].0) / (w[1].0 - w[0].0);
