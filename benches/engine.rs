@@ -38,8 +38,8 @@ fn impacts(bencher: Bencher, masses: usize) {
 #[divan::bench(args = [0.09, 0.11, 0.14, 0.2, 0.3], consts = [false, true])]
 fn counted<const TOGETHER: bool>(bencher: Bencher, sigma: f64) {
     let ensemble = Ensemble { stream: "sweep".into(), ..Ensemble::default() };
-    let realisations = ensemble.prepare(sigma);
-    let counts = || realisations.count(0..16, &|| false).expect("the chain is allowed");
+    let realisations = ensemble.prepare(sigma, &|| false);
+    let counts = || realisations.count(0..16).expect("the chain is allowed");
     let impacts: u64 = counts().iter().map(|counts| counts.total.impacts).sum();
     let bencher = bencher.counter(ItemsCount::new(impacts));
     let draw =

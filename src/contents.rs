@@ -5,7 +5,8 @@
 //! that the paper chose) and `printed` (numbers in its statements).
 
 use crate::claims::{self, Basis, Check, FAMILY_LEVEL, Kind, Published, Verdict};
-use crate::experiments::accuracy::case::{Outcome, Scene, scenes};
+use crate::experiments::accuracy::case::Outcome::{self, GaveUp, Refused, Right, Warned};
+use crate::experiments::accuracy::case::{Scene, scenes};
 use crate::experiments::accuracy::tables::titled;
 use crate::experiments::accuracy::trials::{Trial, right, trouble};
 use crate::experiments::programs::Program;
@@ -32,8 +33,7 @@ pub fn values(_: &Results, _: &Published) -> Result<Vec<Value>, Failure> {
 /// depend on the results.
 pub fn rows(results: &Results, checks: &[Check]) -> Result<BTreeMap<&'static str, Json>, Failure> {
     let trials = results.of(&TRIALS)?;
-    let statements: Vec<&Check> =
-        checks.iter().filter(|check| check.kind == Kind::Statement).collect();
+    let statements = Vec::from_iter(checks.iter().filter(|check| check.kind == Kind::Statement));
     let methods = || trials.parameters.settings.chunk_by(|a, b| a.method == b.method);
     let heads: Vec<String> = methods().map(titled).collect();
     let sizes: Vec<usize> = methods().map(<[_]>::len).collect();
@@ -114,10 +114,9 @@ fn scene_row(scene: &Scene, trials: &[Trial], sizes: &[usize]) -> Json {
         cells.push(outcomes.iter().enumerate().map(part).collect::<Vec<_>>().join("; "));
     }
     let mut outcomes = trials.iter().flatten();
-    let is_said =
-        |outcome: &Outcome| matches!(outcome, Outcome::GaveUp | Outcome::Refused | Outcome::Warned);
+    let is_said = |outcome: &Outcome| matches!(outcome, GaveUp | Refused | Warned);
     let says_so = outcomes.clone().any(is_said);
-    let is_silent = outcomes.any(|outcome| *outcome != Outcome::Right && !is_said(outcome));
+    let is_silent = outcomes.any(|outcome| *outcome != Right && !is_said(outcome));
     let failure = match (says_so, is_silent) {
         (false, false) => "–",
         (true, false) => "announced",

@@ -5,21 +5,15 @@ mod accuracy;
 mod chosen;
 mod ensemble;
 mod ensembles;
-mod grid;
 mod methods;
-mod nucleation;
 mod runs;
 
-pub use accuracy::{
-    BENCH_SEED, BENCH_STREAM, BiasParams, Means, RaceParams, ScaleParams, trial_settings,
-};
+pub use accuracy::*;
 pub use chosen::*;
-pub use ensemble::{Beyond, Ensemble, Heating, lowered};
+pub use ensemble::*;
 pub use ensembles::*;
-pub use grid::Grid;
 pub use impact_chain::{Boundary, Chain, Protocol, Start};
 pub use impact_numerics::estimates::LEVEL;
 pub use literate::experiments::Profile;
-pub use methods::{MethodName, Setting};
-pub use nucleation::{NucleationParams, SeedsParams};
-pub use runs::{Runs, TwoMassesParams};
+pub use methods::*;
+pub use runs::*;

@@ -35,7 +35,6 @@ pub fn rules() -> Vec<Rule> {
     sections.into_iter().flatten().collect()
 }
 
-/// Returns the level of each statistical check.
 pub fn level() -> CheckLevel {
     level_of(&rules())
 }

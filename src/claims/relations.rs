@@ -3,7 +3,7 @@
 //! promises about the engine.
 
 use super::shared::*;
-use crate::experiments::accuracy::case::Outcome;
+use crate::experiments::accuracy::case::Outcome::{Refused, Right};
 use crate::experiments::{NUCLEATION, RACE, SCALE, SECOND_SEED, TRIALS, lengths};
 use literate::claims::Basis::Statistics;
 
@@ -72,11 +72,9 @@ fn two_seeds(e: &Evidence<'_>) -> Departures {
     let estimate = |row: &RisePoint| row.mean.filter(|_| row.active >= FEWEST)?.estimate();
     let between = |row: &RisePoint| {
         let same = first.rows.iter().find(|other| other.sigma == row.sigma)?;
-        Some(difference(estimate(same)?, estimate(row)?))
+        Some(difference(estimate(same)?, estimate(row)?)).filter(|between| between.error > 0.0)
     };
-    let differences = second.rows.iter().filter_map(between);
-    let differences: Vec<Estimate> =
-        differences.filter(|difference| difference.error > 0.0).collect();
+    let differences: Vec<Estimate> = second.rows.iter().filter_map(between).collect();
     let quantile = e.level()?.quantile_among(differences.len());
     let share = |difference: &Estimate| difference.value.abs() / (quantile * difference.error);
     departures.extend(differences.iter().map(share));
@@ -157,10 +155,9 @@ fn above_stays_above(e: &Evidence<'_>) -> Departures {
 
 fn branches_approach(e: &Evidence<'_>) -> Departures {
     let table = e.results.table("branches.half_heights")?;
-    let changes = table.series(&[], "transient", "change_of_distance")?;
     let quantile = e.level()?.quantile;
     let part = |(_, change): &(f64, Estimate)| over(change.value, quantile * change.error);
-    Ok(changes.iter().map(part).collect())
+    Ok(table.series(&[], "transient", "change_of_distance")?.iter().map(part).collect())
 }
 
 fn seeds_before_circuits(e: &Evidence<'_>) -> Departures {
@@ -200,8 +197,7 @@ fn engine_as_promised(e: &Evidence<'_>) -> Departures {
     let mut departures = Vec::new();
     // The engine is the first of the methods.
     let trials = e.results.of(&TRIALS)?.trials.iter().map(|trials| &trials[0]);
-    let wrong =
-        trials.flatten().filter(|outcome| !matches!(outcome, Outcome::Right | Outcome::Refused));
+    let wrong = trials.flatten().filter(|outcome| !matches!(outcome, Right | Refused));
     departures.push(2.0 * wrong.count() as f64);
     let race = e.results.of(&RACE)?.entries.iter();
     if let Some(engine) = race.clone().find(|entry| entry.setting.method == MethodName::Certified) {

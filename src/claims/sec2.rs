@@ -2,7 +2,6 @@
 
 use super::shared::*;
 use crate::experiments::TWO_MASSES;
-use crate::params::{NEAR_SIMULTANEOUS, SLOW};
 use impact_chain::mode_jump::Passing;
 
 pub fn rules() -> Vec<Rule> {
@@ -37,8 +36,7 @@ pub fn rules() -> Vec<Rule> {
 
 fn parameters(e: &Evidence<'_>) -> Judged {
     let chain = &sweep::main_sweep(e.results)?.ensemble.chain;
-    let (n, d, omega, r) =
-        (chain.masses, chain.spacing, chain.natural_frequency, chain.restitution);
+    let Chain { masses: n, spacing: d, natural_frequency: omega, restitution: r, .. } = *chain;
     let square = chain.forcing_frequency * chain.forcing_frequency;
     let printed = e.published.parameter("forcing_frequency_squared")?;
     let same = (square - printed).abs() <= 4.0 * f64::EPSILON && omega == d;
@@ -148,8 +146,7 @@ fn mode_jump(e: &Evidence<'_>) -> Judged {
     };
     let is_sure = e.number(&format!("{row}.single_jumps")).is_ok();
     let key = if is_sure { "note_single" } else { "note_single_open" };
-    let note = e.sentence(key, numbers![lower, above, single])?;
-    Ok(with_more(check, note))
+    Ok(with_more(check, e.sentence(key, numbers![lower, above, single])?))
 }
 
 /// Against a chain in which each gap closes by itself: its rise from a quarter to three quarters,
@@ -193,8 +190,7 @@ fn by_protocol(e: &Evidence<'_>, name: &str, place: fn(&Rise) -> Option<Estimate
     for (windows, key) in
         [late_curves(e, "protocol")?, random].into_iter().zip(["note_rest", "note_random"])
     {
-        let mut places: Vec<Estimate> =
-            windows.iter().filter_map(|curve| place(&curve.rise)).collect();
+        let mut places = Vec::from_iter(windows.iter().filter_map(|curve| place(&curve.rise)));
         places.sort_by(|a, b| a.value.total_cmp(&b.value));
         let printed = places.iter().filter(|place| (from..to).contains(&place.value)).count();
         (agree, known, all) = (agree + printed, known + places.len(), all + windows.len());
@@ -253,8 +249,7 @@ fn three_way(e: &Evidence<'_>) -> Judged {
     let room = quantile * expected.sqrt() + 1.0 + quantile;
     let share = expected.max(seen) / impacts;
     // Masses in contact pass a hit on to one another at once.
-    let excess = seen - expected;
-    let by_chance = (-room..=room + phases).contains(&excess);
+    let by_chance = (-room..=room + phases).contains(&(seen - expected));
     let (near, negligible) = (NEAR_SIMULTANEOUS, NEGLIGIBLE);
     let reached = near * negligible * impacts / expected;
     e.check(

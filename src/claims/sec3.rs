@@ -2,7 +2,6 @@
 
 use super::sec2::small_force;
 use super::shared::*;
-use crate::params::GRAPH_MASSES;
 
 pub fn rules() -> Vec<Rule> {
     vec![

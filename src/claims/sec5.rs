@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 
 pub fn rules() -> Vec<Rule> {
     vec![
-        Rule::new("sec5_fig5", |e| orbit(e, 5)).on(FiniteCases),
-        Rule::new("sec5_fig6", |e| orbit(e, 6)).on(FiniteCases),
+        Rule::new("sec5_fig5", |e| orbit(e, 0)).on(FiniteCases),
+        Rule::new("sec5_fig6", |e| orbit(e, 1)).on(FiniteCases),
         Rule::new("sec5_masses_of_circuit", masses_of_circuit).on(FiniteCases).reads("k + 1"),
         cases("sec5_eq6").reads("(N − 1)!/(N − k)!"),
         cases("sec5_eq7").reads("N!/(k (N − k)!)"),
@@ -19,13 +19,11 @@ pub fn rules() -> Vec<Rule> {
     ]
 }
 
-/// A periodic orbit, replayed over two periods, and the segment of a motion that the figure draws.
-fn orbit(e: &Evidence<'_>, figure: usize) -> Judged {
+/// A periodic orbit, replayed over two periods, and the segment of a motion that Fig. 5 or 6 draws.
+fn orbit(e: &Evidence<'_>, place: usize) -> Judged {
     let segments = e.results.of(&SEGMENTS)?;
-    let (drawn, periodic) = match figure {
-        5 => (&segments.fig05, &segments.periodic[0]),
-        _ => (&segments.fig06, &segments.periodic[1]),
-    };
+    let drawn = [&segments.fig05, &segments.fig06][place];
+    let (periodic, figure) = (&segments.periodic[place], 5 + place);
     let impacts = periodic.first_period().names();
     let printed: Vec<&str> = e.statement.printed.split(", ").collect();
     let row = format!("segments.orbits[figure={figure}]");
@@ -60,8 +58,7 @@ fn masses_of_circuit(e: &Evidence<'_>) -> Judged {
     }
     let involved = bodies(&gaps, segment.masses);
     let is_as_printed = involved as f64 == e.statement.number()?;
-    let holds = is_as_printed && right == sets;
-    let check = e.check(holds, numbers![found = involved, right, sets])?;
+    let check = e.check(is_as_printed && right == sets, numbers![found = involved, right, sets])?;
     Ok(check.explained_if(is_as_printed && as_predicted))
 }
 

@@ -2,7 +2,6 @@
 
 use super::sec2;
 use super::shared::*;
-use crate::params::DISTRIBUTION_P;
 
 pub fn rules() -> Vec<Rule> {
     let fig8 = ["fig8_p_a", "fig8_p_b", "fig8_p_c", "fig8_p_d"];

@@ -70,8 +70,7 @@ fn p_crit(e: &Evidence<'_>) -> Judged {
 
 fn still_one(e: &Evidence<'_>) -> Judged {
     let [at_crit, before] = e.numbers("theory.jump", ["k_at_crit", "k_before"])?;
-    let printed = e.statement.number()?;
-    e.check([at_crit, before] == [printed; 2], numbers![at_crit, before])
+    e.check([at_crit, before] == [e.statement.number()?; 2], numbers![at_crit, before])
 }
 
 fn leaps(e: &Evidence<'_>) -> Judged {

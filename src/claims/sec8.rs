@@ -36,8 +36,7 @@ pub fn rules() -> Vec<Rule> {
 }
 
 fn eq25(e: &Evidence<'_>) -> Judged {
-    let check = e.rounding(e.number("theory.relation.difference")?, 1e-12);
-    Ok(check.note(e.sentence("note", &[])?))
+    Ok(e.rounding(e.number("theory.relation.difference")?, 1e-12).note(e.sentence("note", &[])?))
 }
 
 /// Weights in proportion to p^k have a mean with the slope Var(X)/p.
@@ -140,8 +139,7 @@ pub(super) fn means_in_windows(e: &Evidence<'_>) -> Result<Vec<Vec<(f64, f64)>>,
 fn large_sigma(e: &Evidence<'_>) -> Judged {
     let columns = ["large_distance", "large_distance_at", "large_mean"];
     let [distance, at, mean] = e.numbers("sweep.against_theory", columns)?;
-    let gaps = e.number("sweep.run.gaps")?;
-    let limit = gaps / 10.0;
+    let limit = e.number("sweep.run.gaps")? / 10.0;
     let curve = e.results.table("theory.curve")?.curve(&[], "sigma", "simple")?;
     let means = e.results.table("sweep.rows")?.curve(&[], "sigma", "mean")?;
     let all = VERTICES as f64;

@@ -3,7 +3,6 @@
 use super::sec8::{VISIBLE, means_in_windows};
 use super::shared::*;
 use crate::experiments::theory::higher::overtaken_in_order;
-use crate::params::{CONVERGENCE_P, HIGHER_P, REMARK_P};
 
 pub fn rules() -> Vec<Rule> {
     let ([a, c, d], [first, last]) = (HIGHER_P, CONVERGENCE_P);
@@ -41,8 +40,7 @@ pub fn rules() -> Vec<Rule> {
 
 fn fig6_repeats(e: &Evidence<'_>) -> Judged {
     let repeats = e.results.of(&SEGMENTS)?.fig06.repeats();
-    let each: Vec<String> =
-        repeats.iter().map(|(name, times)| format!("{name}: {times}")).collect();
+    let each = Vec::from_iter(repeats.iter().map(|(name, times)| format!("{name}: {times}")));
     let times: Vec<String> = repeats.iter().map(|(_, times)| times.to_string()).collect();
     let reads =
         e.statement.printed == format!("{} impacts; {} times", repeats.len(), times.join(", "));
@@ -108,8 +106,7 @@ fn even_small_p_different(e: &Evidence<'_>) -> Judged {
 
 fn dominate(e: &Evidence<'_>) -> Judged {
     let shares = REMARK_P.into_iter().map(|p| of_five(e, p, "simple"));
-    let shares = shares.collect::<Result<Vec<_>, _>>()?;
-    let falls = shares.windows(2).all(|w| w[1] < w[0]);
+    let falls = shares.collect::<Result<Vec<_>, _>>()?.windows(2).all(|w| w[1] < w[0]);
     let p = HIGHER_P[2];
     let share = of_five(e, p, "simple")?;
     let limit = 0.01;
@@ -147,8 +144,7 @@ fn mean_large_p(e: &Evidence<'_>) -> Judged {
 
 /// Leaves open an explanation by the orders that are counted: those left out weigh more.
 fn explains_agreement(e: &Evidence<'_>) -> Judged {
-    let doubling = e.number("theory.higher.doubling")?;
-    e.check(None, numbers![p = HIGHER_P[2], doubling])
+    e.check(None, numbers![p = HIGHER_P[2], doubling = e.number("theory.higher.doubling")?])
 }
 
 fn mean_small_p(e: &Evidence<'_>) -> Judged {

@@ -4,7 +4,7 @@ use crate::experiments::ensembles::{Counted, find_ensemble};
 pub use crate::experiments::rise::{Curve, Rise, RisePoint};
 pub(super) use crate::experiments::theory::comparison::{self, LARGE_SIGMA, interpolate};
 pub use crate::experiments::{LENGTHS, MODE_JUMP, PROTOCOL, SEGMENTS, sweep};
-pub use crate::params::{Chain, MethodName, Protocol, VERTICES};
+pub use crate::params::*;
 pub use impact_numerics::estimates::{difference, with_error};
 pub use impact_numerics::statistics::{Estimate, wilson};
 pub use literate::claims::Basis::{FiniteCases, OurMeasure, PrintedDigit, Rounding};
@@ -12,7 +12,6 @@ pub use literate::claims::Error::{self, Undecided};
 pub use literate::claims::{Check, Evidence, Judged, Kind, Rule, Text};
 pub use literate::numbers;
 
-/// Finds the chains of this name among those of an experiment.
 pub fn ensemble<'a>(ensembles: &'a [Counted], name: &str) -> Result<&'a Counted, Error> {
     find_ensemble(ensembles, name).ok_or(Undecided)
 }
@@ -26,7 +25,6 @@ pub fn late_curves<'a>(e: &Evidence<'a>, map: &str) -> Result<Vec<&'a Curve>, Er
     Ok(curves.filter(|curve| curve.protocol.transient >= RELEASED).collect())
 }
 
-/// Returns the least and the largest of some numbers.
 pub fn extremes(numbers: impl Iterator<Item = f64> + Clone) -> Option<[f64; 2]> {
     Some([numbers.clone().reduce(f64::min)?, numbers.reduce(f64::max)?])
 }
@@ -38,7 +36,6 @@ pub fn by_runs([agree, differ, all]: [usize; 3]) -> Option<bool> {
     (all > 0 && [agree, differ].contains(&all)).then_some(agree == all)
 }
 
-/// Adds a sentence to the note of a check.
 pub fn with_more(check: Check, sentence: Text) -> Check {
     let note = check.note.clone().then(" ").then(sentence);
     check.note(note)

@@ -1,6 +1,5 @@
 //! Reads numbers of the command line that must lie in a range.
 
-use std::ops::RangeInclusive;
 use std::sync::Arc;
 
 /// A parser of one value of the command line.
@@ -17,23 +16,16 @@ pub fn number(low: f64, high: f64) -> impl Parse<f64> {
     }
 }
 
-/// A range with more values is taken for a mistake.
-const MOST_VALUES: f64 = 1e5;
-
 /// Several numbers, which are one value of the command line.
 pub type Values = Arc<[f64]>;
 
-/// Returns a parser of a list or a range of numbers from `low` to `high`, both included.
+/// Returns a parser of a list of numbers from `low` to `high`, both included, or of a range of them
+/// with at most `most`: one with more is taken for a mistake.
 ///
 /// A range A..B:STEP is A + i·STEP, rounded to the decimals of A and STEP, so that 0.1..0.2:0.02
 /// holds the same double 0.12 as a list does; B belongs to it when it is hit within STEP/1000.
-pub fn numbers(low: f64, high: f64) -> impl Parse<Values> {
-    numbers_up_to(MOST_VALUES, low..=high)
-}
-
-/// Returns a parser like that of [`numbers`], for ranges of at most `most` numbers.
-fn numbers_up_to(most: f64, bounds: RangeInclusive<f64>) -> impl Parse<Values> {
-    let parser = number(*bounds.start(), *bounds.end());
+pub fn numbers(low: f64, high: f64, most: f64) -> impl Parse<Values> {
+    let parser = number(low, high);
     move |text: &str| {
         let number = |text: &str| parser(text).map_err(|error| format!("{text:?}: {error}"));
         let Some((from, rest)) = text.split_once("..") else {
@@ -59,10 +51,8 @@ fn numbers_up_to(most: f64, bounds: RangeInclusive<f64>) -> impl Parse<Values> {
     }
 }
 
-/// Times of samples on the command line.
 #[derive(Clone, Debug)]
 pub enum Times {
-    /// Once in each period of the forcing.
     OncePerPeriod,
     Values(Values),
 }
@@ -74,7 +64,7 @@ pub fn times(latest: f64) -> impl Parse<Times> {
         if text == "period" {
             return Ok(Times::OncePerPeriod);
         }
-        let times = numbers_up_to(1e15, 0.0..=latest)(text)?;
+        let times = numbers(0.0, latest, 1e15)(text)?;
         let is_rising = times.is_sorted();
         is_rising.then_some(Times::Values(times)).ok_or("the times fall; give rising ones".into())
     }
@@ -86,7 +76,7 @@ mod tests {
 
     #[test]
     fn lists_and_ranges() {
-        let sigmas = numbers(0.0, 1e6);
+        let sigmas = numbers(0.0, 1e6, 1e5);
         let read = |text: &str| sigmas(text).unwrap().to_vec();
         assert_eq!(read("0.1,0.12"), [0.1, 0.12]);
         assert_eq!(read(" 0.3 "), [0.3]);

@@ -15,26 +15,12 @@ use literate::table::{DataFile, shortest};
 use serde_json::from_value;
 use std::ops::Range;
 
-/// Run an ensemble of random chains at each σ and print a row for each σ
-///
-/// Examples:
-///   sweep --sigma 0.08..0.16:0.01
-///   sweep --sigma 0.12,0.13 --masses 1000 --realisations 100
-///   sweep --sigma 0.12 --realisations 1000..2000 --transient 100,500 --window 200,1000
-///
-/// Each row says how many distinct gaps impact in the window (T, T + W]; realisations without any
-/// are not kept. Realisation i has the same standard normals at every σ. All windows are read from
-/// one run. Rows are printed at the end. Warnings (stderr) name realisations that the engine ended
-/// early, rows with more than a tenth of the starts rejected, or with more than one in a hundred
-/// impacts at the instant of another, and grazes that rounding could not decide.
-///
-/// Realisation i is Scenario::draw of impact-chain with NormalPairs::new("sweep", Seed(S), i);
-/// its to_json can be read by trace. The chain, its equation and its units: trace --help.
 #[derive(clap::Args)]
-#[command(verbatim_doc_comment, after_help = help())]
+#[command(about = "Run an ensemble of random chains at each σ and print a row for each σ")]
+#[command(long_about = include_str!("sweep.txt"), after_help = help())]
 pub struct Args {
     /// Standard deviations: a list 0.1,0.12 or a range A..B:STEP (B included when hit).
-    #[arg(long, value_name = "A..B:STEP|LIST", allow_hyphen_values = true, value_parser = numbers(0.0, 1e6))]
+    #[arg(long, value_name = "A..B:STEP|LIST", allow_hyphen_values = true, value_parser = numbers(0.0, 1e6, 1e5))]
     sigma: Values,
     /// Number of masses n.
     #[arg(long, value_name = "n", default_value_t = 100, value_parser = at_least_one)]
@@ -43,10 +29,10 @@ pub struct Args {
     #[arg(long, value_name = "R|A..B", default_value = "1000", value_parser = realisations)]
     realisations: Range<u64>,
     /// Transients T that are dropped, in units of time: a list or a range.
-    #[arg(long, value_name = "T", default_value = "500", value_parser = numbers(0.0, LATEST), allow_hyphen_values = true)]
+    #[arg(long, value_name = "T", default_value = "500", value_parser = numbers(0.0, LATEST, 1e5), allow_hyphen_values = true)]
     transient: Values,
     /// Windows W in which impacts are counted, in units of time: a list or a range.
-    #[arg(long, value_name = "W", default_value = "200", value_parser = numbers(1e-3, LATEST), allow_hyphen_values = true)]
+    #[arg(long, value_name = "W", default_value = "200", value_parser = numbers(1e-3, LATEST, 1e5), allow_hyphen_values = true)]
     window: Values,
     /// Natural frequency ω.
     #[arg(long, value_name = "w", default_value = "1", value_parser = number(1e-3, 1e3), allow_hyphen_values = true)]
@@ -78,7 +64,6 @@ fn at_least_one(text: &str) -> Result<usize, String> {
     number.filter(|&n| n > 0).ok_or_else(|| "give a whole number, 1 or more".into())
 }
 
-/// Reads a number of realisations, or the range of their numbers.
 fn realisations(text: &str) -> Result<Range<u64>, String> {
     let (from, to) = text.split_once("..").unwrap_or(("0", text));
     let range = from.parse().ok().zip(to.parse().ok()).map(|(from, to)| from..to);
@@ -194,8 +179,7 @@ pub fn run(args: Args) -> Result<(), Failure> {
     // Each thread has a chain, 300 bytes a mass and some for its gaps; realisations leave counts.
     let threads = args.threads.number() as u128;
     check_memory(threads * 360 * args.masses as u128 + (1 << 10) * realisations as u128)?;
-    let progress = Progress::on_stderr();
-    let rows = args.threads.run(|| rows(ensemble, &progress))?;
+    let rows = args.threads.run(|| rows(ensemble, &Progress::on_stderr()))?;
     let header = COLUMNS.map(|(name, ..)| name.to_string()).into();
     print(&DataFile { name: "sweep.csv".into(), header, rows }.to_csv())
 }
@@ -205,9 +189,7 @@ fn rows(ensemble: Ensemble, progress: &Progress) -> Result<Vec<Vec<String>>, Fai
     let cutting: Cutting<Vec<Ensemble>, Counts, Vec<Counts>> = Cutting {
         rows: CUTTING.rows,
         run_unit: CUTTING.run_unit,
-        join: |_, parts, _| {
-            Ok(parts.into_iter().map(|parts| parts.into_iter().collect()).collect())
-        },
+        join: |_, parts, _| Ok(parts.into_iter().map(Counts::from_iter).collect()),
     };
     let ensembles = vec![ensemble];
     let counts = cutting.run(&ensembles, "sweep", progress)?;

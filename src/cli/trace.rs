@@ -48,14 +48,11 @@ pub fn run(args: Args) -> Result<(), Failure> {
         Some(Times::Values(times)) => times.first().copied(),
         _ => None,
     };
+    let begin = start.as_ref().map_or(0.0, |start| start.time);
     for (option, time) in [("--until", args.until), ("--at", first_sample)] {
-        if let (Some(start), Some(time)) = (&start, time)
-            && time < start.time
-        {
-            let begin = start.time;
-            let message =
-                format!("{option}: {time:?} is before the state, at {begin:?}; give a later time");
-            return Err(Failure::input(message));
+        if let Some(time) = time.filter(|time| *time < begin) {
+            let problem = format!("{time:?} is before the state, at {begin:?}");
+            return Err(Failure::input(format!("{option}: {problem}; give a later time")));
         }
     }
     let latest = Arc::new(AtomicU64::new(0));
@@ -103,49 +100,43 @@ fn saved(path: &Path) -> Result<State, Failure> {
 
 /// Starts the runs of all scenarios, and hands on where their parts come from.
 fn start_all(job: &Arc<Job>, queue: &SyncSender<Receiver<Part>>) {
-    let is_stdin = job.args.scenario == Path::new("-");
-    let name =
-        if is_stdin { "standard input".into() } else { job.args.scenario.display().to_string() };
-    if let Err(error) = read_all(job, &name, queue) {
+    let path = &job.args.scenario;
+    let is_stdin = path == Path::new("-");
+    let name = if is_stdin { "standard input".into() } else { path.display().to_string() };
+    let start = |number: Option<u64>, text: String| {
+        let (sender, parts) = sync_channel(16);
+        let (job, name) = (Arc::clone(job), name.clone());
+        let is_wanted = queue.send(parts).is_ok();
+        rayon::spawn(move || job.run(number, &name, &text, sender));
+        is_wanted
+    };
+    let start_each = || -> io::Result<()> {
+        let mut file: Box<dyn BufRead> = if is_stdin {
+            Box::new(io::stdin().lock())
+        } else {
+            Box::new(BufReader::new(File::open(path)?))
+        };
+        if !job.args.lines {
+            start(None, input::read_from(file)?);
+            return Ok(());
+        }
+        for number in 1.. {
+            let mut line = Vec::new();
+            (&mut file).take(input::MOST << 20).read_until(b'\n', &mut line)?;
+            let is_blank = line.trim_ascii().is_empty();
+            if line.is_empty() || !is_blank && !start(Some(number), input::read_from(&line[..])?) {
+                break;
+            }
+        }
+        Ok(())
+    };
+    if let Err(error) = start_each() {
         let failure = format!("{name}: {error}; give a scenario, see `trace --help`");
         let (sender, parts) = sync_channel(1);
         // Nobody takes it if the program is ending.
         let _ = sender.send(Part::Failed(Failure::input(failure)));
         let _ = queue.send(parts);
     }
-}
-
-fn read_all(job: &Arc<Job>, name: &str, queue: &SyncSender<Receiver<Part>>) -> io::Result<()> {
-    let mut file: Box<dyn BufRead> = if job.args.scenario == Path::new("-") {
-        Box::new(io::stdin().lock())
-    } else {
-        Box::new(BufReader::new(File::open(&job.args.scenario)?))
-    };
-    let start = |number: Option<u64>, text: String| {
-        let (sender, parts) = sync_channel(16);
-        let (job, name) = (Arc::clone(job), name.to_string());
-        let is_wanted = queue.send(parts).is_ok();
-        rayon::spawn(move || job.run(number, &name, &text, sender));
-        is_wanted
-    };
-    if !job.args.lines {
-        start(None, input::read_from(file)?);
-        return Ok(());
-    }
-    for number in 1.. {
-        let mut line = Vec::new();
-        (&mut file).take(input::MOST << 20).read_until(b'\n', &mut line)?;
-        if line.is_empty() {
-            break;
-        }
-        if line.trim_ascii().is_empty() {
-            continue;
-        }
-        if !start(Some(number), input::read_from(line.as_slice())?) {
-            break;
-        }
-    }
-    Ok(())
 }
 
 /// Returns the step or tolerance; refuses an option that the method does not have.

@@ -53,7 +53,6 @@ impl Counted {
         self.curves.iter().find(|curve| curve.protocol == protocol)
     }
 
-    /// Returns the curve of the first window.
     pub fn first_curve(&self) -> &Curve {
         &self.curves[0]
     }
@@ -81,7 +80,6 @@ pub fn unit_rows(ensembles: &Vec<Ensemble>) -> Vec<UnitRow> {
     cases(ensembles).map(row).collect()
 }
 
-/// Counts the impacts of one unit of work.
 pub fn run_unit(
     ensembles: &Vec<Ensemble>,
     unit: &Unit,
@@ -89,10 +87,11 @@ pub fn run_unit(
     progress: &Progress,
 ) -> Result<Counts, Error> {
     let Some((one, sigma)) = cases(ensembles).nth(unit.row) else { return Ok(Counts::default()) };
-    let realisations = one.prepare(sigma);
+    let stopped = || progress.stopped();
+    let realisations = one.prepare(sigma, &stopped);
     let count = |indices| {
         progress.check()?;
-        let counts = realisations.count(indices, &|| progress.stopped());
+        let counts = realisations.count(indices);
         progress.check()?;
         counts.map_err(|source| Error::failed("an ensemble", source))
     };
@@ -100,21 +99,20 @@ pub fn run_unit(
     Ok(unit.run_in_groups(group_size, stage, count)?.into_iter().flatten().collect())
 }
 
+/// The counts of the units of each row.
+pub type Parts = Vec<Vec<Counts>>;
+
 /// Joins the counts of units of work, and lists those of each ensemble at each σ.
 pub fn join_counts(
     ensembles: &[Ensemble],
-    parts: Vec<Vec<Counts>>,
+    parts: Parts,
 ) -> impl Iterator<Item = (Ensemble, Vec<Counts>)> {
     let mut at_each = parts.into_iter().map(Counts::from_iter);
     let counts = move |one: &Ensemble| at_each.by_ref().take(one.sigmas.len()).collect();
     ensembles.iter().cloned().zip(ensembles.iter().map(counts))
 }
 
-fn join(
-    ensembles: &Vec<Ensemble>,
-    parts: Vec<Vec<Counts>>,
-    progress: &Progress,
-) -> Result<Vec<Counted>, Error> {
+fn join(groups: &Vec<Ensemble>, parts: Parts, progress: &Progress) -> Result<Vec<Counted>, Error> {
     let summarise = |(one, counts): (Ensemble, Vec<Counts>)| {
         let totals = |(&sigma, counts): (&f64, &Counts)| RunTotals {
             sigma,
@@ -144,7 +142,7 @@ fn join(
         let curves = window_indices.map(curve).collect::<Result<_, Error>>()?;
         Ok(Counted { ensemble: one, runs, curves })
     };
-    join_counts(ensembles, parts).map(summarise).collect()
+    join_counts(groups, parts).map(summarise).collect()
 }
 
 /// Runs a function on each item, on all threads, and returns the results in the order of the items;

@@ -42,7 +42,6 @@ pub fn run(parameters: &Runs, progress: &Progress) -> Result<Horizon, Error> {
 }
 
 pub fn tables(horizon: &Horizon) -> Vec<Table> {
-    const LEAST: &str = "least time of the first impact of another gap";
     let orders = horizon.twins.iter().filter_map(|pair| pair.order);
     let (times, before): (Vec<f64>, Vec<f64>) = orders.map(|(t, n)| (t, n as f64)).unzip();
     let least = times.iter().copied().fold(f64::INFINITY, f64::min);
@@ -52,7 +51,7 @@ pub fn tables(horizon: &Horizon) -> Vec<Table> {
         .chosen("sigma", SIGMA, "", |horizon| Some(horizon.parameters.sigma))
         .estimate("order", TIME, "time of the first impact of another gap", |_| average(&times))
         .estimate("impacts", "1", "impacts before it", |_| average(&before))
-        .real("first_order", TIME, 3, LEAST, |_| least)
+        .real("first_order", TIME, 3, "least time of the first impact of another gap", |_| least)
         .done();
     vec![table]
 }

@@ -1,12 +1,9 @@
 //! Runs chains of several lengths from rest, and with a random start after several transients.
 
-use super::ensembles::{Ensembles, ensembles};
 use crate::experiments::prelude::*;
-use impact_chain::Start;
 
 pub const LENGTHS: Ensembles = ensembles("lengths", "lengths", params::lengths, tables);
 
-/// Returns the chains from rest, with their curves.
 pub fn from_rest(ensembles: &[Counted]) -> impl Iterator<Item = (&Counted, &Curve)> {
     let at_rest = ensembles.iter().filter(|one| one.ensemble.chain.start == Start::Rest);
     at_rest.flat_map(|one| one.curves.iter().map(move |curve| (one, curve)))

@@ -6,7 +6,6 @@ use literate::experiments::experiment::How::Read;
 use literate::experiments::{AnyExperiment, DerivedTables, Experiment};
 use literate::{Paper, Project, Sources};
 
-/// All experiments in the order in which they run.
 pub const ALL: &[&dyn AnyExperiment] = &[
     &THEORY,
     &super::SEGMENTS,
@@ -32,7 +31,6 @@ pub const ALL: &[&dyn AnyExperiment] = &[
     &super::REPLAY,
 ];
 
-/// Tables that need results of several experiments.
 const DERIVED: [DerivedTables; 4] = [
     theory::comparison::tables,
     seeds::compared::tables,

@@ -35,7 +35,6 @@ pub struct Machine {
     pub os: String,
 }
 
-/// What was timed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Subject {
@@ -95,7 +94,6 @@ pub fn committed<T: DeserializeOwned>(session: &Session<'_>, file: &str) -> Resu
 }
 
 impl Measured {
-    /// Lists the rows of all sessions on a subject.
     pub fn rows_about(&self, subject: Subject) -> impl Iterator<Item = &Measurement> {
         let rows = self.sessions.iter().flat_map(|session| &session.rows);
         rows.filter(move |row| row.subject == subject)
@@ -183,7 +181,6 @@ impl Measurement {
     }
 }
 
-/// Makes the tables of times that the report quotes, with when and where they were measured.
 pub fn tables(measured: &Measured) -> Vec<Table> {
     const HORIZON: &str = "time up to which its run of one chain is right";
     const THOUSAND: &str = "time of one core for a thousand chains";
@@ -208,8 +205,7 @@ pub fn tables(measured: &Measured) -> Vec<Table> {
         .real("engine", "us", 2, &meaning, |()| engine)
         .all_measured();
     let single = measured.rows_about(Subject::Engine).chain(measured.rows_about(Subject::Peer));
-    let single: Vec<_> =
-        single.filter(|row| row.chains == 1 && row.horizon_time.is_some()).collect();
+    let single = Vec::from_iter(single.filter(|row| row.chains == 1 && row.horizon_time.is_some()));
     let finest = single.chunk_by(|a, b| (&a.name, a.n) == (&b.name, b.n)).filter_map(<[_]>::last);
     let finest: Vec<_> = finest.collect();
     let chain = Table::builder("measured.chain", &finest, |_| 1)

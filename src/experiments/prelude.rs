@@ -1,12 +1,8 @@
 //! Gathers what most experiments use, and the units and words that several tables have.
 
-pub use crate::experiments::ensembles::{Counted, find_ensemble, run_each};
-pub use crate::params::{
-    self, BiasParams, Boundary, Chain, Ensemble, Grid, LEVEL, Means, MethodName, NucleationParams,
-    Profile, Protocol, RaceParams, Runs, SEED, ScaleParams, SeedsParams, Setting, Start,
-    TwoMassesParams, VERTICES,
-};
-pub use impact_chain::rise::Curve;
+pub use crate::experiments::ensembles::{Counted, Ensembles, ensembles, find_ensemble, run_each};
+pub use crate::params::{self, *};
+pub use impact_chain::rise::{Curve, RisePoint};
 pub use impact_chain::{Counts, Engine, Impact, Scenario, State};
 pub use impact_numerics::estimates::{average, difference, jackknife, ratio, share, with_error};
 pub use impact_numerics::random::{NormalPairs, Seed};

@@ -43,7 +43,6 @@ pub struct Run {
 }
 
 impl Run {
-    /// Returns the outcomes of the cases of a scene.
     pub fn trial(&self, scene: &Scene) -> &Trial {
         &self.outcomes[&scene.id]
     }

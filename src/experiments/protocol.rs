@@ -1,6 +1,5 @@
 //! Maps the influence of the counting protocol: half height against transient T and window W.
 
-use super::ensembles::{Ensembles, ensembles};
 use crate::experiments::prelude::*;
 
 pub const PROTOCOL: Ensembles = ensembles("protocol", "protocol map", params::protocol, tables);

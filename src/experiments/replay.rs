@@ -91,8 +91,7 @@ pub fn runs(_: Profile) -> ReplayRuns {
 fn mirrored() -> Vec<[f64; 2]> {
     let chain = Chain { masses: 10, ..Chain::default() };
     let half = Scenario::draw(&chain, 0.3, &mut NormalPairs::new("mirror", Seed(SEED), 0)).forcing;
-    let other = half.iter().rev().map(|pair| pair.map(|x| -x));
-    half.iter().copied().chain(other).collect()
+    half.iter().copied().chain(half.iter().rev().map(|pair| pair.map(|x| -x))).collect()
 }
 
 pub fn run(parameters: &ReplayRuns, progress: &Progress) -> Result<Replays, Error> {

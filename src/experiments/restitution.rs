@@ -1,6 +1,5 @@
 //! Finds half heights of chains of several restitutions r.
 
-use super::ensembles::{Ensembles, ensembles};
 use crate::experiments::prelude::*;
 
 pub const RESTITUTION: Ensembles =

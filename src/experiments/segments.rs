@@ -2,7 +2,7 @@
 
 use crate::experiments::prelude::*;
 use impact_circuits::graph::Graph;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 pub const SEGMENTS: Experiment<(), Segments> = Experiment {
     name: "segments",
@@ -73,11 +73,10 @@ impl Segment {
 
     /// Returns how often each different impact is repeated beyond its first time, most first.
     pub fn repeats(&self) -> Vec<(String, usize)> {
-        let mut again: BTreeMap<String, usize> = BTreeMap::new();
-        for name in self.names() {
-            again.entry(name).and_modify(|times| *times += 1).or_insert(0);
-        }
-        let mut repeats: Vec<_> = again.into_iter().filter(|(_, times)| *times > 0).collect();
+        let mut names = self.names();
+        names.sort();
+        let all = names.chunk_by(|a, b| a == b).map(|same| (same[0].clone(), same.len() - 1));
+        let mut repeats: Vec<_> = all.filter(|(_, times)| *times > 0).collect();
         repeats.sort_by_key(|(_, times)| std::cmp::Reverse(*times));
         repeats
     }
@@ -91,8 +90,7 @@ impl Segment {
     /// Returns the largest distance of positions and of impact times one period apart, or infinity
     /// if the impacts differ.
     fn apart(&self) -> f64 {
-        let half = self.impacts.len() / 2;
-        let (first, second) = self.impacts.split_at(half);
+        let (first, second) = self.impacts.split_at(self.impacts.len() / 2);
         let same = first.iter().map(|impact| impact.gap).eq(second.iter().map(|impact| impact.gap));
         if !same || self.times.len().is_multiple_of(2) {
             return f64::INFINITY;
@@ -105,13 +103,11 @@ impl Segment {
         times.chain(positions).fold(0.0, f64::max)
     }
 
-    /// Returns the number of masses with an impact.
     pub fn masses_hit(&self) -> usize {
         let both_sides = self.impacts.iter().flat_map(|impact| [impact.gap, impact.gap + 1]);
         both_sides.filter(|body| (1..=self.masses).contains(body)).collect::<BTreeSet<_>>().len()
     }
 
-    /// Returns the number of different instants at which it has impacts.
     fn instants(&self) -> usize {
         self.impacts.chunk_by(|a, b| a.time == b.time).count()
     }
@@ -143,8 +139,7 @@ pub fn tables(segments: &Segments) -> Vec<Table> {
         .done();
     const INSTANTS: &str = "different times at which it has impacts";
     let exceptions = ["no impact", "impacts at once"].into_iter().zip(&segments.no_circuit);
-    let exceptions: Vec<_> =
-        exceptions.map(|(name, two)| (name, two, two.first_period())).collect();
+    let exceptions = Vec::from_iter(exceptions.map(|(name, two)| (name, two, two.first_period())));
     let exceptions = Table::builder("segments.no_circuit", &exceptions, |_| 1)
         .text_key("orbit", |(name, ..)| name.to_string())
         .count("impacts", "in a period", |(_, _, one)| one.impacts.len() as u64)
@@ -186,8 +181,7 @@ pub fn read(session: &Session<'_>) -> Result<Segments, Error> {
         .map(|(start, forces, from)| {
             let chain = Chain { masses: 2, start, ..Chain::default() };
             let period = std::f64::consts::TAU / chain.forcing_frequency;
-            let forcing = forces.map(|force| [force, 0.0]).to_vec();
-            Scenario::given(&chain, forcing)
+            Scenario::given(&chain, forces.map(|force| [force, 0.0]).to_vec())
                 .and_then(|pair| record(&pair, from * period, (from + 2.0) * period))
                 .map_err(failure)
         });

@@ -1,6 +1,5 @@
 //! Finds half heights of chains with another start, another Ω, or a ring in place of walls.
 
-use super::ensembles::{Ensembles, ensembles};
 use crate::experiments::prelude::*;
 
 pub const STARTS: Ensembles = ensembles("starts", "variants", params::starts, tables);

@@ -1,10 +1,7 @@
 //! Runs the simulations of Sec. 2: means and shares at each σ, the rise, and rare events.
 
-use super::ensembles::{Ensembles, ensembles};
 use crate::experiments::prelude::*;
-use crate::params::{NEAR_SIMULTANEOUS, SLOW, printed_threshold};
 use impact_chain::counts::{NEAR_DECADES, SLOW_DECADES, Total};
-use impact_chain::rise::RisePoint;
 
 pub const SWEEP: Ensembles = ensembles("sweep", "main sweep", params::sweep, tables);
 
@@ -16,7 +13,6 @@ pub const SECOND_SEED: Ensembles =
 const ABOVE: f64 = 0.2;
 const STICKING: f64 = 0.3;
 
-/// Returns the counts of the main sweep.
 pub fn main_sweep(results: &Results) -> Result<&Counted, Error> {
     let missing = || Error::input(SWEEP.name, "its result has no chains", "run it again");
     find_ensemble(results.of(&SWEEP)?, SWEEP.name).ok_or_else(missing)
@@ -64,12 +60,11 @@ fn run(sweep: &Counted, total: &Total) -> Table {
 
 /// Makes the table of means (of different gaps, of impacts, of masses) and shares at each σ.
 fn rows(sweep: &Counted) -> Table {
-    const ACTIVE: &str = "share of the realisations with an impact in the window";
-    let active_share = |row: &RisePoint| share(row.active as u64, row.ran as u64);
+    let active = |row: &RisePoint| share(row.active as u64, row.ran as u64);
     Table::builder("sweep.rows", &sweep.first_curve().rows, |row| row.ran)
         .table_computed_by(origin(RisePoint::new))
         .key("sigma", SIGMA, |row| row.sigma)
-        .estimate("kept", "1", ACTIVE, active_share)
+        .estimate("kept", "1", "share of the realisations with an impact in the window", active)
         .estimate("mean_all", "1", "gaps with an impact, mean of all", |r| r.mean_all?.estimate())
         .next_columns_over(|row| row.active)
         .estimate("mean", "1", "gaps hit, mean of those with any", |row| row.mean?.estimate())

@@ -75,8 +75,7 @@ pub fn safe_force(chain: &Chain) -> f64 {
 /// Returns the factor on `forcing` below which R1 + R2 < d in every gap, after a start from rest.
 fn bound(chain: &Chain, forcing: &[[f64; 2]]) -> f64 {
     let wall = [[0.0; 2]];
-    let bodies = [&wall, forcing, &wall].concat();
-    closing_pull(chain) / pulls(chain, &bodies).fold(0.0, f64::max)
+    closing_pull(chain) / pulls(chain, &[&wall, forcing, &wall].concat()).fold(0.0, f64::max)
 }
 
 /// Returns the impacts below the bound, and the smallest ratio with an impact by each time.

@@ -4,8 +4,8 @@
 //! higher orders, as in the captions of Figs. 12, 13 and 15. The labs of the pages have the same
 //! colours and dashes; blue dots are the reader's own chains there.
 
-use super::prelude::*;
 use crate::params::MethodName;
+use literate::figures::prelude::*;
 
 /// A quantity: its name, its line, and its mark.
 pub struct Look {

@@ -48,8 +48,7 @@ pub fn draw() -> Result<Figure, Error> {
 fn walls(sheet: &SheetArea, right: i32) -> Drawn {
     let (top, thick) = (470, 260);
     for (edge, out) in [(LEFT, -1), (right, 1)] {
-        let wall = [(edge, top), (edge + out * thick, FLOOR)];
-        sheet.draw(&Rectangle::new(wall, PALE.filled()))?;
+        sheet.draw(&Rectangle::new([(edge, top), (edge + out * thick, FLOOR)], PALE.filled()))?;
         draw_line(sheet, [(edge, top), (edge, FLOOR)], 40)?;
     }
     let (left, right) = (LEFT - thick, right + thick);

@@ -1,11 +1,7 @@
 //! Draws Fig. 2: the most likely number of impacts against σ, simulated, and the distributions
 //! before, at and after its jump.
 
-use super::encoding::{Look, gaps_axis};
 use super::prelude::*;
-use super::simulated::*;
-use crate::experiments::Results;
-use crate::params::Protocol;
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let table = results.table("jump.distributions")?;
@@ -15,15 +11,14 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let at = |column: &str| results.number(&format!("{row}.{column}")).ok();
     let (place, below, single) = (at("place"), at("below"), at("single_place"));
     let sheet = Sheet::new(8750);
-    let panel =
-        sheet.lettered("(a)", MAIN, sigma_axis(), gaps_axis(n, 20.0))?.outside(Outside::Cut);
+    let panel = sheet.lettered("(a)", MAIN, sigma_axis(), gaps_axis(n, 20.0))?.outside(Cut);
     let rows = results.table("jump.rows")?;
     let modes = rows.curve(&[], "sigma", "mode")?;
     let peaks = rows.series(&[], "sigma", "peak")?;
     // Where a single gap or all gaps are the most likely number there is no interval.
     let bars = peaks.iter().filter(|(sigma, peak)| modes.contains(&(*sigma, peak.value)));
     let bars: Vec<_> = bars.map(|(s, peak)| (*s, peak.interval[0], peak.interval[1])).collect();
-    panel.bars(Look::MODE.name, &bars, 40, INTERVAL)?;
+    panel.bars(Look::MODE.name, &bars, 40, Stroke::solid(GREY, 30))?;
     draw_printed_threshold(&panel, 1.02 * n as f64)?;
     panel.markers(Look::MODE.name, &modes, Look::MODE.mark)?;
     let mode_label = format!("{}: all gaps", Look::MODE.name);
@@ -55,8 +50,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         }
         let y = Axis::up_to(1.05 * top, "share of chains");
         let y = if i == 0 { y } else { y.without_numbers() };
-        let frame = Frame::new(left, 5550, left + 2150, 7850);
-        let panel = sheet.panel(frame, x, y)?.outside(Outside::Cut);
+        let panel = sheet.panel(Frame::new(left, 5550, left + 2150, 7850), x, y)?.outside(Cut);
         panel.heading(["(b)", "(c)", "(d)"][i], &format!("*σ* = {}", short(sigma, 4)))?;
         panel.columns("share of chains", &columns, Stroke::solid(RED, HAIR / 2))?;
         // How high the hump is, up to the column of all gaps, which has its standard error.

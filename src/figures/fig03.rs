@@ -1,23 +1,18 @@
 //! Draws Fig. 3: the expected number of impacts (of different gaps) against σ, simulated, and how
 //! many runs it rests on.
 
-use super::encoding::{Look, gaps_axis};
 use super::prelude::*;
-use super::simulated::*;
-use crate::experiments::Results;
-use crate::experiments::theory::comparison;
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let half_height = results.number("sweep.rise.half_height").ok();
     let sheet = Sheet::new(7550);
     let n = results.number("sweep.run.gaps")? as usize;
     let (x, y) = (sigma_axis().without_numbers(), gaps_axis(n, 20.0));
-    let panel = sheet.lettered("(a)", MAIN, x, y)?.outside(Outside::Cut);
+    let panel = sheet.lettered("(a)", MAIN, x, y)?.outside(Cut);
     let rows = results.table("sweep.rows")?;
     let swept = |column| rows.curve(&[], "sigma", column);
     let (all, means) = (swept("mean_all")?, simulated_points(results)?);
-    let mean = comparison::interpolate(&means, printed_threshold());
-    draw_printed_threshold(&panel, mean.unwrap_or(0.0))?;
+    draw_printed_threshold(&panel, interpolate(&means, printed_threshold()).unwrap_or(0.0))?;
     panel.curve(Look::ALL.name, &all, Look::ALL.line)?;
     panel.estimates(Look::ACTIVE.name, &simulated(results)?, Look::ACTIVE.mark)?;
     panel.label(Look::ACTIVE.name, (panel.x.hi, n as f64), (-1, 3), RED)?;
@@ -31,8 +26,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     }
 
     let (x, y) = (sigma_axis(), Axis::linear(0.0, 1.0, 0.5, 5, "share of chains"));
-    let share = sheet.lettered("(b)", Frame::new(1200, 5200, 8150, 6650), x, y)?;
-    let share = share.outside(Outside::Cut);
+    let share = sheet.lettered("(b)", Frame::new(1200, 5200, 8150, 6650), x, y)?.outside(Cut);
     let fraction = swept("kept")?;
     share.marked_curve(Look::SHARE.name, &fraction, Look::SHARE.mark.2, Look::SHARE.mark)?;
     share.label(Look::SHARE.name, first_point_above(&fraction, 0.5), (5, 0), RED)?;

@@ -3,7 +3,6 @@
 
 use super::prelude::*;
 use crate::experiments::theory::counts::shares;
-use crate::params::VERTICES as N;
 
 /// The lengths in (a); shorter ones are too rare to be visible.
 const SHOWN: f64 = 0.9 * N as f64;

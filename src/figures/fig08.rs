@@ -1,9 +1,7 @@
 //! Draws Fig. 8: the distribution of the number of different impacts at four p, in one panel.
 
 use super::prelude::*;
-use crate::experiments::Results;
 use crate::experiments::theory::law::simple;
-use crate::params::{DISTRIBUTION_P, VERTICES as N};
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(5150);

@@ -1,10 +1,7 @@
 //! Draws Fig. 9: (a) the most likely and (b) the expected number of impacts against p.
 
-use super::encoding::Look;
 use super::prelude::*;
-use crate::experiments::Results;
 use crate::experiments::theory::law::{means, steps};
-use crate::params::VERTICES as N;
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(7950);
@@ -15,7 +12,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let (frame, x) = (Frame::new(1150, 430, 8150, 3430), p().without_numbers());
     let mode = sheet.lettered("(a)", frame, x, y("most likely number *k*^{∗}"))?;
     let frame = Frame::new(1150, 4130, 8150, 7130);
-    let mean = sheet.lettered("(b)", frame, p(), y("mean number *μ*"))?.outside(Outside::Cut);
+    let mean = sheet.lettered("(b)", frame, p(), y("mean number *μ*"))?.outside(Cut);
 
     let p_jump = results.number("theory.jump.p_jump")?;
     let jump = results.number("theory.jump.k_after")?;

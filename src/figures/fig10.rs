@@ -3,7 +3,6 @@
 use super::prelude::*;
 use crate::experiments::theory::jump::{f, stages, zeros};
 use crate::experiments::theory::law::{k_star, simple, steps};
-use crate::params::VERTICES as N;
 
 /// The p of the rows: those of [`stages`], in their order.
 #[derive(Clone, Copy, PartialEq)]
@@ -73,7 +72,7 @@ fn axis_of_f(p: f64) -> Axis {
 }
 
 fn draw_f(panel: &Panel, p: f64) -> Drawn {
-    let panel = panel.outside(Outside::Cut);
+    let panel = panel.outside(Cut);
     panel.level("zero", 0.0, Stroke::solid(GREY, HAIR))?;
     panel.curve("f", &f(p), Stroke::solid(INK, LINE))?;
     let Some(zeros) = zeros(p) else {

@@ -1,13 +1,7 @@
 //! Draws Fig. 11: the impact probability p against the standard deviation σ of the forcing; on a
 //! logarithmic axis as well, which the paper does not have.
 
-use super::encoding::{Look, SIGMA_LABEL};
 use super::prelude::*;
-use super::simulated::first_point_above;
-use crate::experiments::Results;
-
-/// Lowest decade of the logarithmic panel.
-const LOWEST: i32 = -8;
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(8350);
@@ -19,9 +13,9 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let y = Axis::up_to(p.iter().chain(&from_rest).map(|p| p.1).fold(0.0, f64::max), "*p*");
     let linear = Frame::new(1300, 430, 8150, 3430);
     let linear = sheet.lettered("(a)", linear, sigma().without_numbers(), y)?;
-    let y = Axis::decades(LOWEST, 0, 2, "*p*");
-    let decades = sheet.lettered("(b)", Frame::new(1300, 4130, 8150, 7530), sigma(), y)?;
-    let decades = decades.outside(Outside::Cut);
+    let y = Axis::decades(-8, 0, 2, "*p*");
+    let decades =
+        sheet.lettered("(b)", Frame::new(1300, 4130, 8150, 7530), sigma(), y)?.outside(Cut);
 
     // Both vanish with σ.
     let from_zero = |points: &[(f64, f64)]| [&[(0.0, 0.0)], points].concat();

@@ -1,17 +1,12 @@
 //! Draws Fig. 12: the expected number of impacts, graph theory against simulation.
 
-use super::encoding::{Look, gaps_axis};
 use super::prelude::*;
-use super::simulated::*;
-use crate::experiments::Results;
-use crate::params::VERTICES;
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(5450);
     let n = results.number("sweep.run.gaps")? as usize;
     let threshold = printed_threshold();
-    let panel = sheet.panel(MAIN, sigma_axis(), gaps_axis(n, 20.0))?;
-    let panel = panel.outside(Outside::Cut);
+    let panel = sheet.panel(MAIN, sigma_axis(), gaps_axis(n, 20.0))?.outside(Cut);
     draw_printed_threshold(&panel, 0.0)?;
     let simple = theory_points(results, "simple")?;
     panel.curve(Look::THEORY.name, &simple, Look::THEORY.line)?;

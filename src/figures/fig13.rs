@@ -3,18 +3,13 @@
 //! class is visible and named.
 
 use super::prelude::*;
-use crate::experiments::Results;
 use crate::experiments::theory::higher::{contributions, five};
-use crate::params::{HIGHER_P, VERTICES as N};
-
-/// Name, symbol, colour and dash of a class.
-type Class = (&'static str, &'static str, RGBColor, Dash);
 
 /// The sum of all classes: the ground on which the thinner broken lines of the classes are seen.
 const SUM: Stroke = Stroke::solid(GREY, 2 * LINE + 8);
 
-/// The five classes in the order of Eq. (38).
-const CLASSES: [Class; 5] = [
+/// The five classes in the order of Eq. (38): name, symbol, colour and dash.
+const CLASSES: [(&str, &str, RGBColor, Dash); 5] = [
     ("simple circuits", "*ϕ*_{*N*}", GREEN, LONG),
     ("one vertex twice", "*ϕ*_{*N*}^{1}", PURPLE, SHORT),
     ("one vertex three times", "*ϕ*_{*N*}^{1,0}", ORANGE, TWICE),
@@ -22,8 +17,9 @@ const CLASSES: [Class; 5] = [
     ("two vertices twice", "*ϕ*_{*N*}^{2}", INK, ALTERNATE),
 ];
 
-/// The name of the axis of probabilities.
+/// The name of the axis of probabilities, and of their column.
 const PROBABILITY: &str = "*P*(*X* = *k*)";
+const COLUMN: &str = "P(X = k)";
 
 /// What is less than this part of an axis lies on zero, and is not drawn there.
 const VISIBLE: f64 = 0.02;
@@ -32,26 +28,26 @@ const VISIBLE: f64 = 0.02;
 /// from its curve there.
 type Name = (usize, usize, i32, i32);
 
-/// A panel: p, first and last k, step between their numbers, names.
-type Shown = (f64, [f64; 3], &'static [Name]);
-
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(12_100);
     let [small, middle, large] = HIGHER_P;
-    let panels: [Shown; 4] = [
+    // p, first and last k, step between their numbers, names.
+    let panels: [(f64, [f64; 3], &[Name]); 4] = [
         (small, [0.0, 8.0, 2.0], &[(0, 2, 3, -2)]),
         (small, [0.0, 12.0, 4.0], &[(0, 8, 1, -2), (1, 3, 1, -2)]),
         (middle, [0.0, 20.0, 5.0], &[(0, 3, 2, -1), (1, 15, 0, -3)]),
         (large, [65.0, 95.0, 10.0], &[(4, 77, -3, 0)]),
     ];
+    let axis_of_k = |[first, last, step]: [f64; 3]| Axis::linear(first, last, step, 2, "*k*");
     for (i, (p, x, names)) in panels.iter().copied().enumerate() {
         let classes = contributions(p);
         // The detail shows the higher orders: the simple circuits leave it at its upper edge.
         let most = if i == 1 { 1.5 * largest(&classes[1..].concat()) } else { largest(&five(p)) };
-        let y = Axis::up_to(most, if i % 2 == 0 { PROBABILITY } else { "" });
+        let y = Axis::up_to(most, if i % 2 == 0 { PROBABILITY } else { "" }).column(COLUMN);
         let (left, top) = (1200 + 4050 * (i as i32 % 2), 480 + 2700 * (i as i32 / 2));
         let frame = Frame::new(left, top, left + 2950, top + 1700);
-        let panel = draw_panel(&sheet, LETTERS[i], frame, x, y, p)?;
+        let panel = sheet.panel(frame, axis_of_k(x), y)?.outside(Cut);
+        draw_classes(&panel, LETTERS[i], p)?;
         for &(class, k, right, down) in names {
             let (_, symbol, colour, _) = CLASSES[class];
             panel.label(symbol, (k as f64, classes[class][k - 1]), (right, down), colour)?;
@@ -65,7 +61,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     {
         let y = Axis::decades(-12, 0, 2, PROBABILITY).between(3e-10, 1.5 * largest(&five(p)));
         let frame = Frame::new(1200, top, 5300, top + 2150);
-        let panel = draw_panel(&sheet, letter, frame, x, y, p)?;
+        let panel = sheet.panel(frame, axis_of_k(x), y.column(COLUMN))?.outside(Cut);
+        draw_classes(&panel, letter, p)?;
         let ends = contributions(p).into_iter().zip(CLASSES);
         let ends = ends.map(|(y, look)| (format!("{}, {}", look.0, look.1), over_k(&y), look.2));
         panel.label_ends(&ends.collect::<Vec<_>>())?;
@@ -96,16 +93,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
 }
 
 /// Draws the sum and the classes; those that are not visible are data only.
-fn draw_panel(
-    sheet: &Sheet,
-    letter: &str,
-    frame: Frame,
-    [first, last, step]: [f64; 3],
-    y: Axis,
-    p: f64,
-) -> Result<Panel, Error> {
-    let x = Axis::linear(first, last, step, 2, "*k*");
-    let panel = sheet.panel(frame, x, y.column("P(X = k)"))?.outside(Outside::Cut);
+fn draw_classes(panel: &Panel, letter: &str, p: f64) -> Drawn {
     panel.heading(letter, &format!("*p* = {}", short(p, 3)))?;
     panel.curve("all five classes", &over_k(&five(p)), SUM)?;
     for (class, (name, _, colour, dash)) in contributions(p).iter().zip(CLASSES) {
@@ -115,5 +103,5 @@ fn draw_panel(
             panel.record(name, over_k(class));
         }
     }
-    Ok(panel)
+    Ok(())
 }

@@ -1,11 +1,8 @@
 //! Draws Fig. 14: simple and higher-order distributions become alike as p grows.
 
-use super::encoding::Look;
 use super::prelude::*;
-use crate::experiments::Results;
 use crate::experiments::theory::higher::five;
 use crate::experiments::theory::law::simple;
-use crate::params::{CONVERGENCE_P, VERTICES as N};
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(6950);
@@ -17,8 +14,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let y = Axis::up_to(top, "*P*(*X* = *k*)");
         let edge = 480 + 3100 * i as i32;
         let (frame, p) = (Frame::new(1200, edge, 8150, edge + 2450), short(at, 3));
-        let head = format!("{} *p* = {p}", LETTERS[i]);
-        let panel = sheet.lettered(&head, frame, x, y)?;
+        let panel = sheet.lettered(&format!("{} *p* = {p}", LETTERS[i]), frame, x, y)?;
         panel.set_suffix(LETTERS[i]);
         for (name, values, side, stroke) in [
             ("simple circuits", simple(at), -1, Look::THEORY.line),

@@ -1,16 +1,13 @@
 //! Draws Fig. 15: as Fig. 12, with higher orders, and their change, which the paper does not show.
 
-use super::encoding::{Look, gaps_axis};
 use super::prelude::*;
-use super::simulated::*;
-use crate::experiments::Results;
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let sheet = Sheet::new(7900);
     let n = results.number("sweep.run.gaps")? as usize;
     let threshold = printed_threshold();
     let (x, y) = (sigma_axis().without_numbers(), gaps_axis(n, 20.0));
-    let panel = sheet.lettered("(a)", MAIN, x, y)?.outside(Outside::Cut);
+    let panel = sheet.lettered("(a)", MAIN, x, y)?.outside(Cut);
     let (simple, higher) = (theory_points(results, "simple")?, theory_points(results, "higher")?);
     panel.curve("simple circuits", &simple, Look::THEORY.line)?;
     panel.curve("five classes", &higher, Look::HIGHER.line)?;
@@ -25,8 +22,8 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         higher.iter().zip(&simple).map(|(more, less)| (more.0, more.1 - less.1)).collect();
     let most = change.iter().map(|point| point.1).fold(0.0, f64::max);
     let y = Axis::linear(0.0, 1.1 * most, 5.0, 5, "gaps added");
-    let difference = sheet.lettered("(b)", Frame::new(1200, 5200, 8150, 7000), sigma_axis(), y)?;
-    let difference = difference.outside(Outside::Cut);
+    let difference =
+        sheet.lettered("(b)", Frame::new(1200, 5200, 8150, 7000), sigma_axis(), y)?.outside(Cut);
     difference.curve("difference of the theories", &change, Look::HIGHER.line)?;
     let (peak, _) = first_point_above(&change, most);
     difference.label("by the higher orders", (peak, 0.7 * most), (5, 0), BLUE)?;

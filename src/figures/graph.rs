@@ -89,8 +89,9 @@ impl Layout {
             let share = if from.abs_diff(to) == 2 { 24 } else { 50 };
             let path = self.edge(from, to);
             let at = path[path.len() * share / 100];
-            let ring = (Symbol::Ring, 150, Stroke::solid(colour, HAIR));
-            sheet.area.draw(&markers(vec![at], ring))?;
+            sheet
+                .area
+                .draw(&markers(vec![at], (Symbol::Ring, 150, Stroke::solid(colour, HAIR))))?;
             let style = words(SMALL, INK, HPos::Center, VPos::Center);
             sheet.area.draw_text(&i32::to_string(&step), &style, at)?;
         }

@@ -18,6 +18,7 @@ mod fig13;
 mod fig14;
 mod fig15;
 mod graph;
+mod prelude;
 mod rivals;
 mod s01;
 mod s02;
@@ -32,13 +33,7 @@ mod s10;
 mod s11;
 mod simulated;
 
-// And with them the prelude that the figures take as `super::prelude`.
-pub use literate::figures::*;
-
-use crate::experiments::{
-    BIAS, BRANCHES, MEASURED, MODE_JUMP, NUCLEATION, PROGRAMS, PROTOCOL, RACE, SCALE, SEEDS,
-    SEGMENTS, SPACE_TIME, SWEEP, THEORY, TRIALS,
-};
+use crate::experiments::*;
 use literate::FigureSpec;
 
 /// All figures: first the paper's, then those of this edition.

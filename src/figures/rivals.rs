@@ -1,11 +1,9 @@
 //! Draws methods in all charts of speed and accuracy, each named next to its symbols.
 
-use super::encoding;
 use super::prelude::*;
 use crate::experiments::Measured;
 use crate::experiments::accuracy::race::Race;
 use crate::experiments::measured::Subject;
-use crate::params::{MethodName, Setting};
 
 /// The point of a setting, with its interval in y if it has one.
 pub struct Point {

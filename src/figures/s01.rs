@@ -2,7 +2,6 @@
 
 use super::prelude::*;
 use crate::experiments::spacetime::SpaceTime;
-use crate::params::Protocol;
 use std::collections::BTreeMap;
 
 /// How much of the run the second panel shows.

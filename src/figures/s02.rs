@@ -1,9 +1,6 @@
 //! Draws Fig. S2: the half height of the rise for each transient and window, as a map.
 
-use super::encoding::HALF_HEIGHT_LABEL;
 use super::prelude::*;
-use crate::experiments::Results;
-use crate::params::{Protocol, printed_threshold};
 
 /// The numbers of a table's key as an axis of cells of equal width, counted from zero.
 fn cells(values: &[f64], label: &str) -> Axis {

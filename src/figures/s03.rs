@@ -1,11 +1,6 @@
 //! Draws Fig. S3: gaps that close by themselves, and chains with one of them.
 
-use super::encoding::{Look, SIGMA_LABEL};
 use super::prelude::*;
-use crate::experiments::Results;
-use crate::experiments::theory::comparison::interpolate;
-use crate::params::printed_threshold;
-use literate::table::Table;
 
 /// The σ of (a).
 const SIGMAS: (f64, f64) = (0.055, 0.165);
@@ -59,8 +54,7 @@ fn chains(sheet: &Sheet, found: &Table, shares: &Table, sweep: &Table, masses: u
 fn times(sheet: &Sheet, found: &Table) -> Drawn {
     let x = Axis::decades(0, 4, 1, "time *T* (1/*ω*)").between(8.0, 3e3);
     let y = Axis::decades(-6, 0, 2, "1 − *p*_{*T*}/*p*_{rest}");
-    let panel = sheet.lettered("(b)", Frame::new(1150, 5250, 7150, 7650), x, y)?;
-    let panel = panel.outside(Outside::Cut);
+    let panel = sheet.lettered("(b)", Frame::new(1150, 5250, 7150, 7650), x, y)?.outside(Cut);
     let sigmas = found.distinct("sigma")?;
     let three = [sigmas.first().copied(), Some(printed_threshold()), sigmas.last().copied()];
     let mut drawn = Vec::new();

@@ -1,11 +1,6 @@
 //! Draws Fig. S4: how impacts spread from one gap, and the mean count that follows.
 
-use super::encoding::{HALF_HEIGHT_LABEL, Look, SIGMA_LABEL, gaps_axis};
 use super::prelude::*;
-use crate::experiments::Results;
-use crate::experiments::theory::comparison::interpolate;
-use crate::params::printed_threshold;
-use literate::table::Table;
 
 /// The σ of (a).
 const SIGMAS: (f64, f64) = (0.075, 0.165);
@@ -59,8 +54,7 @@ fn counts(sheet: &Sheet, results: &Results) -> Drawn {
 fn advances(sheet: &Sheet, advance: &Table) -> Drawn {
     let x = Axis::decades(1, 4, 1, "time since first impact (1/*ω*)").between(20.0, 1500.0);
     let y = Axis::decades(-1, 2, 1, "advance (gaps)").between(0.3, 80.0);
-    let panel =
-        sheet.lettered("(b)", Frame::new(1150, 5250, 3650, 7650), x, y)?.outside(Outside::Cut);
+    let panel = sheet.lettered("(b)", Frame::new(1150, 5250, 3650, 7650), x, y)?.outside(Cut);
     let sigmas = advance.distinct("sigma")?;
     let three = [sigmas.first().copied(), Some(printed_threshold()), sigmas.last().copied()];
     let mut drawn = Vec::new();
@@ -79,8 +73,7 @@ fn advances(sheet: &Sheet, advance: &Table) -> Drawn {
 fn halves(sheet: &Sheet, rise: &Table, scores: &Table) -> Drawn {
     let x = Axis::decades(1, 4, 1, "transient *T* (1/*ω*)").between(20.0, 2000.0);
     let y = Axis::linear(0.1, 0.14, 0.01, 2, HALF_HEIGHT_LABEL).column("half_height (d omega^2)");
-    let panel =
-        sheet.lettered("(c)", Frame::new(5950, 5250, 8150, 7650), x, y)?.outside(Outside::Edge);
+    let panel = sheet.lettered("(c)", Frame::new(5950, 5250, 8150, 7650), x, y)?.outside(Edge);
     let grown = rise.curve(&[], "transient", "half_height")?;
     panel.marked_curve(Look::SEEDS.name, &grown, Look::SEEDS.mark.2, Look::SEEDS.mark)?;
     let half_heights = scores.series(&[], "transient", "half_height")?;

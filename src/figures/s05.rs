@@ -1,9 +1,7 @@
 //! Draws Fig. S5: chains from rest and from above after several transients.
 
-use super::encoding::{HALF_HEIGHT_LABEL, SIGMA_LABEL};
 use super::prelude::*;
-use crate::experiments::{PROTOCOL, Results};
-use literate::table::Table;
+use crate::experiments::PROTOCOL;
 
 /// The window of the half heights.
 const WINDOW: f64 = 200.0;
@@ -40,8 +38,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
 fn half_heights(sheet: &Sheet, results: &Results, halves: &Table, lengths: &[f64]) -> Drawn {
     let x = Axis::decades(1, 6, 1, "transient *T* (1/*ω*)").between(10.0, 1.25e5);
     let y = Axis::linear(0.06, 0.14, 0.02, 4, HALF_HEIGHT_LABEL).column("half_height (d omega^2)");
-    let panel =
-        sheet.lettered("(a)", Frame::new(1150, 430, 6000, 3930), x, y)?.outside(Outside::Cut);
+    let panel = sheet.lettered("(a)", Frame::new(1150, 430, 6000, 3930), x, y)?.outside(Cut);
     let masses = results.of(&PROTOCOL)?.first().map_or(0, |map| map.ensemble.chain.masses);
     let rest = format!("from rest, *n* = {masses}");
     let bound = results.number("theory.relation.sigma_kept_half")?;
@@ -65,8 +62,7 @@ fn half_heights(sheet: &Sheet, results: &Results, halves: &Table, lengths: &[f64
         }
     }
     panel.label_ends(&ends)?;
-    let start = map.get(3).copied().unwrap_or((10.0, bound));
-    panel.label_nearby(&rest, start, (1, -1), GREY)
+    panel.label_nearby(&rest, map.get(3).copied().unwrap_or((10.0, bound)), (1, -1), GREY)
 }
 
 /// Shares after the first transient and after the last.
@@ -92,9 +88,8 @@ fn shares(sheet: &Sheet, shares: &Table, masses: f64) -> Drawn {
                 // Below its points.
                 ("from_above", 1) => ((last.0, first.1.value), (-1, 2)),
                 ("from_rest", 0) => {
-                    let named_point =
-                        points.iter().find(|point| point.1.value >= 0.2).unwrap_or(last);
-                    ((named_point.0, named_point.1.value), (2, 1))
+                    let named = points.iter().find(|point| point.1.value >= 0.2).unwrap_or(last);
+                    ((named.0, named.1.value), (2, 1))
                 }
                 _ => ((last.0, last.1.value), (2, 0)),
             };

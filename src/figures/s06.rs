@@ -1,11 +1,7 @@
 //! Draws Fig. S6: the most likely number and its jump for many vertices.
 
-use super::encoding::Look;
 use super::prelude::*;
-use crate::experiments::Results;
 use crate::experiments::theory::large;
-use crate::params::DRAWN_VERTICES;
-use literate::table::Table;
 
 /// The p N in (a): around the onset, where the sizes differ.
 const RANGE: (f64, f64) = (0.9, 1.5);
@@ -24,8 +20,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
 fn shares(sheet: &Sheet) -> Drawn {
     let x = Axis::linear(RANGE.0, RANGE.1, 0.1, 2, "*p N*");
     let y = Axis::decades(-6, 0, 2, "*k*^{∗}/*N*").between(4e-7, 1.0);
-    let panel =
-        sheet.lettered("(a)", Frame::new(1150, 430, 8150, 3730), x, y)?.outside(Outside::Cut);
+    let panel = sheet.lettered("(a)", Frame::new(1150, 430, 8150, 3730), x, y)?.outside(Cut);
     // The ground on which all lie beyond their jumps, which end in discs.
     panel.curve("limit", &large::limit(), Stroke::solid(GREY, 2 * LINE + 8))?;
     for (place, vertices) in DRAWN_VERTICES.into_iter().enumerate() {

@@ -1,13 +1,11 @@
 //! Draws Fig. S7: speed against accuracy of a mean, the difference by each method from the engine's
 //! mean against the time that the method takes, once for each question.
 
-use super::encoding;
 use super::prelude::*;
 use super::rivals;
 use crate::experiments::accuracy::answers;
 use crate::experiments::accuracy::tables::{Compared, compared};
-use crate::experiments::{BIAS, MEASURED, Results};
-use crate::params::{MethodName, Setting};
+use crate::experiments::{BIAS, MEASURED};
 
 pub fn draw(results: &Results) -> Result<Figure, Error> {
     let (biases, measured) = (results.of(&BIAS)?, results.of(&MEASURED)?);
@@ -28,7 +26,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
         let x = if i < 2 { x.without_numbers() } else { x };
         let y = Axis::linear(-15.0, 15.0, 5.0, 1, "difference (%)").column("error of the mean (%)");
         let y = if i % 2 == 0 { y } else { y.without_numbers() };
-        let panel = sheet.panel(frame, x, y)?.outside(Outside::Edge);
+        let panel = sheet.panel(frame, x, y)?.outside(Edge);
         panel.heading(LETTERS[i], &format!("*σ* = {}, *T* = {}", chains.sigma, of.transient))?;
         let tolerance = answers::MEANS.iter().find(|mean| mean.0 == chains.sigma);
         let tolerance = tolerance.map(|mean| 100.0 * mean.1);

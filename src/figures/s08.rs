@@ -3,7 +3,7 @@
 use super::prelude::*;
 use crate::experiments::accuracy::case::Outcome::{self, *};
 use crate::experiments::accuracy::trials::{Trial, right};
-use crate::experiments::{PROGRAMS, Results, TRIALS};
+use crate::experiments::{PROGRAMS, TRIALS};
 
 /// How cases end that are not right, from the bottom of a tile upwards.
 const FAILURES: [(&str, RGBColor, &[Outcome]); 3] = [
@@ -102,8 +102,7 @@ fn in_two(title: &str) -> (&str, &str) {
 
 /// Draws a tile, filled from below by each kind of failure as far as its share of the cases.
 fn tile(sheet: &Sheet, Frame { left, top, right, bottom }: Frame, trial: &Trial) -> Drawn {
-    let tile = [(left, top), (right, bottom)];
-    sheet.area.draw(&Rectangle::new(tile, GREEN.mix(0.3).filled()))?;
+    sheet.area.draw(&Rectangle::new([(left, top), (right, bottom)], GREEN.mix(0.3).filled()))?;
     let (mut failures, mut base) = (0, bottom);
     for (_, colour, outcomes) in FAILURES {
         failures += trial.iter().filter(|outcome| outcomes.contains(outcome)).count();

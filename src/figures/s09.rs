@@ -3,7 +3,7 @@
 use super::prelude::*;
 use super::rivals::{self, FINEST, Place, Point, by_method, over_engine};
 use crate::experiments::accuracy::race::{DISPLACED, Entry};
-use crate::experiments::{MEASURED, RACE, Results};
+use crate::experiments::{MEASURED, RACE};
 use crate::params::MethodName::*;
 
 /// Where the names stand in (a).
@@ -31,7 +31,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let error = Axis::decades(-18, 0, 3, "error in time (1/*ω*)");
     let error = error.column("error of the next impact's time (1/omega)");
     let (upper, x) = (Frame::new(1300, 430, 8250, 4330), time_axis().without_numbers());
-    let errors = sheet.lettered("(a)", upper, x, error)?.outside(Outside::Edge);
+    let errors = sheet.lettered("(a)", upper, x, error)?.outside(Edge);
     errors.level("counts as missed", DISPLACED, Stroke::dashed(GREY, HAIR, SHORT))?;
     errors.label("missed above", (errors.x.hi, DISPLACED), (-1, -1), INK)?;
 
@@ -47,7 +47,7 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let none = axis.lo;
     axis.lo *= 0.3;
     let misses = Frame::new(1300, 4950, 8250, 7250);
-    let mut misses = sheet.lettered("(b)", misses, time_axis(), axis)?.outside(Outside::Edge);
+    let mut misses = sheet.lettered("(b)", misses, time_axis(), axis)?.outside(Edge);
     misses.y.lo = none;
     misses.level("a break", 7.0 * none, Stroke::dashed(GREY, HAIR, SHORT))?;
     let time = |e: &Entry| over_engine(race, measured, e.setting);

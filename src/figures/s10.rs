@@ -1,15 +1,10 @@
 //! Draws Fig. S10: how long all impacts of a run are right, against time and one impact's error.
 
-use super::encoding;
 use super::prelude::*;
 use super::rivals::{self, FINEST, Place, Point, by_method, over_engine, programs};
 use crate::experiments::accuracy::race::{DISPLACED, Entry, Race};
-use crate::experiments::{MEASURED, RACE, Results};
+use crate::experiments::{MEASURED, RACE};
 use crate::params::MethodName::*;
-use impact_numerics::statistics::Estimate;
-
-/// The rounding of doubles, 2⁻⁵³.
-const ROUNDING: f64 = f64::EPSILON / 2.0;
 
 /// Where names stand in (a).
 const NAMES_IN_A: [Place; 3] = [
@@ -50,15 +45,15 @@ pub fn draw(results: &Results) -> Result<Figure, Error> {
     let top = (race.parameters.until / 50.0).ceil() * 50.0;
     let x = || rivals::time_axis(1.3e4);
     let (by_time, others) = (Frame::new(1100, 430, 8250, 3230), Frame::new(1100, 3800, 8250, 6600));
-    let by_time = sheet.lettered("(a)", by_time, x().without_numbers(), horizon_axis(top))?;
-    let by_time = by_time.outside(Outside::Edge);
-    let others = sheet.lettered("(b)", others, x(), horizon_axis(top))?.outside(Outside::Edge);
+    let by_time =
+        sheet.lettered("(a)", by_time, x().without_numbers(), horizon_axis(top))?.outside(Edge);
+    let others = sheet.lettered("(b)", others, x(), horizon_axis(top))?.outside(Edge);
     let x = Axis::decades(-18, 0, 3, "median error of the next impact (1/*ω*)").between(1e-20, 0.5);
     let by_error = Frame::new(1100, 7750, 8250, 9950);
-    let by_error = sheet.lettered("(c)", by_error, x, horizon_axis(top))?.outside(Outside::Edge);
+    let by_error = sheet.lettered("(c)", by_error, x, horizon_axis(top))?.outside(Edge);
 
     chaos(&by_error, race)?;
-    if let Some([_, ceiling, _]) = allowed(race, ROUNDING).filter(|t| t[1] < top) {
+    if let Some([_, ceiling, _]) = allowed(race, f64::EPSILON / 2.0).filter(|t| t[1] < top) {
         let name = "what chaos allows in double precision";
         by_time.level(name, ceiling, Stroke::dashed(GREY, LINE, SHORT))?;
         by_time.label(name, (by_time.x.hi, ceiling), (-1, -1), GREY)?;
@@ -135,6 +130,5 @@ fn chaos(panel: &Panel, race: &Race) -> Drawn {
     let band = Polygon::new(below.chain(above).collect::<Vec<_>>(), GREY.mix(0.35));
     panel.draw_series("interval of the growth", [band])?;
     let line: Vec<_> = grid.iter().map(|(x, t)| (*x, t[1])).collect();
-    let stroke = Stroke::dashed(GREY, LINE, SHORT);
-    panel.outside(Outside::Cut).curve("what chaos allows", &line, stroke)
+    panel.outside(Cut).curve("what chaos allows", &line, Stroke::dashed(GREY, LINE, SHORT))
 }

@@ -3,7 +3,7 @@
 use super::prelude::*;
 use super::rivals::{self, FINEST, Place, Point, by_method};
 use crate::experiments::accuracy::scale::WorkPoint;
-use crate::experiments::{MEASURED, Results, SCALE};
+use crate::experiments::{MEASURED, SCALE};
 use crate::params::MethodName::*;
 
 /// Where names stand in (a).

@@ -1,14 +1,11 @@
 //! Gives the figures of the simulations what they share: rows, axes and marks.
 
 use super::encoding::SIGMA_LABEL;
-use super::prelude::*;
 use crate::experiments::Results;
 use crate::experiments::theory::comparison;
-pub use crate::params::printed_threshold;
+use crate::params::printed_threshold;
 use impact_numerics::statistics::Estimate;
-
-/// Bars of intervals, which stay behind the marks.
-pub const INTERVAL: Stroke = Stroke::solid(GREY, 30);
+use literate::figures::prelude::*;
 
 /// Fewer active realisations have a mean that says more about them than about σ.
 const LEAST_ACTIVE: f64 = 8.0;

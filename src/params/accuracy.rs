@@ -201,7 +201,6 @@ impl BiasParams {
         BiasParams { means: means.collect() }
     }
 
-    /// Counts the runs of all methods.
     pub fn runs(&self) -> u64 {
         let settings = self.means.iter().flat_map(|means| &means.settings);
         // The engine runs its chains again, to know what chaos makes of a rounding.

@@ -101,11 +101,12 @@ impl Ensemble {
         (self.chain.masses as f64 * (1.0 + impacts)) as u64
     }
 
-    /// Prepares the simulation of its realisations at a σ.
-    pub fn prepare(&self, sigma: f64) -> Realisations<'_> {
+    /// Prepares the simulation of its realisations at a σ, which ends early when `stopped` returns
+    /// true.
+    pub fn prepare<'a>(&'a self, sigma: f64, stopped: Stopped<'a>) -> Realisations<'a> {
         let heating = self.heating.map(|heating| Abreast::new(&self.chain, &[], heating.time));
         let counting = Counting::new(&self.chain, &self.protocols, self.until(sigma));
-        Realisations { ensemble: self, sigma, heating, counting }
+        Realisations { ensemble: self, sigma, heating, counting, stopped }
     }
 
     /// Counts the gaps with an impact of each piece in each window, instead of those of the chain.
@@ -121,26 +122,14 @@ impl Ensemble {
         }
     }
 
-    fn normals(&self, index: u64) -> NormalPairs {
-        NormalPairs::new(&self.stream, Seed(self.seed), index)
-    }
-
-    /// Returns an engine at the time from which transients are measured.
-    fn start_engine(
-        &self,
-        sigma: f64,
-        index: u64,
-        stopped: &dyn Fn() -> bool,
-    ) -> Result<Engine, Error> {
-        let Some(Heating { sigma: hot, time }) = self.heating else {
-            return Engine::new(&Scenario::draw(&self.chain, sigma, &mut self.normals(index)));
-        };
-        let scenario = Scenario::draw(&self.chain, hot, &mut self.normals(index));
-        let mut engine = Engine::new(&scenario)?;
-        engine.run(time, |_, _| if stopped() { Break(()) } else { Continue(()) })?;
-        Engine::new(&lowered(&scenario, &engine.free_parts(), time, sigma / hot))
+    fn draw(&self, sigma: f64, index: u64) -> Scenario {
+        let mut normals = NormalPairs::new(&self.stream, Seed(self.seed), index);
+        Scenario::draw(&self.chain, sigma, &mut normals)
     }
 }
+
+/// Returns whether a run is to end.
+pub type Stopped<'a> = &'a (dyn Fn() -> bool + Sync);
 
 /// Realisations at one σ, which are simulated side by side, or else one by one by the engine.
 pub struct Realisations<'a> {
@@ -149,45 +138,49 @@ pub struct Realisations<'a> {
     /// The run before the transient, if there is one.
     heating: Option<Option<Abreast>>,
     counting: Counting,
+    stopped: Stopped<'a>,
 }
 
 impl Realisations<'_> {
-    /// Counts the impacts of realisations, in their order; incomplete when `stopped` returns true.
-    pub fn count(
-        &self,
-        indices: Range<u64>,
-        stopped: &dyn Fn() -> bool,
-    ) -> Result<Vec<Counts>, Error> {
-        let ensemble = self.ensemble;
-        let starts = self.starts(indices.map(|index| ensemble.first + index), stopped);
-        let engine = |index| ensemble.start_engine(self.sigma, index, stopped);
-        let runs = self.counting.run(starts, engine, stopped)?.into_iter();
+    /// Counts the impacts of realisations, in their order; incomplete if it ended early.
+    pub fn count(&self, indices: Range<u64>) -> Result<Vec<Counts>, Error> {
+        let first = self.ensemble.first;
+        let starts = self.starts(indices.start + first..indices.end + first);
+        let runs = self.counting.run(starts, |index| self.start_engine(index), self.stopped)?;
         let cut = |(mut counts, watch): (Counts, Watch)| {
-            ensemble.count_pieces(&mut counts, &watch);
+            self.ensemble.count_pieces(&mut counts, &watch);
             counts
         };
-        Ok(runs.map(cut).collect())
+        Ok(runs.into_iter().map(cut).collect())
+    }
+
+    /// Returns an engine at the time from which transients are measured.
+    fn start_engine(&self, index: u64) -> Result<Engine, Error> {
+        let (ensemble, sigma) = (self.ensemble, self.sigma);
+        let Some(Heating { sigma: hot, time }) = ensemble.heating else {
+            return Engine::new(&ensemble.draw(sigma, index));
+        };
+        let scenario = ensemble.draw(hot, index);
+        let mut engine = Engine::new(&scenario)?;
+        engine.run(time, |_, _| if (self.stopped)() { Break(()) } else { Continue(()) })?;
+        Engine::new(&lowered(&scenario, &engine.free_parts(), time, sigma / hot))
     }
 
     /// Lists the scenarios from which transients are measured, or `None` for those whose way there
     /// has to be simulated by the engine, each with its index.
-    fn starts(
-        &self,
-        indices: impl Iterator<Item = u64> + Clone,
-        stopped: &dyn Fn() -> bool,
-    ) -> Vec<(u64, Option<Scenario>)> {
-        let Ensemble { chain, heating, .. } = self.ensemble;
-        let draw = |sigma, index| Scenario::draw(chain, sigma, &mut self.ensemble.normals(index));
-        let Some((hot, heating)) = heating.zip(self.heating.as_ref()) else {
-            return indices.map(|index| (index, Some(draw(self.sigma, index)))).collect();
+    fn starts(&self, indices: Range<u64>) -> Vec<(u64, Option<Scenario>)> {
+        let ensemble = self.ensemble;
+        let Some((hot, heating)) = ensemble.heating.zip(self.heating.as_ref()) else {
+            return indices.map(|index| (index, Some(ensemble.draw(self.sigma, index)))).collect();
         };
         let Some(heating) = heating else { return indices.map(|index| (index, None)).collect() };
-        let scenarios: Vec<_> = indices.clone().map(|index| draw(hot.sigma, index)).collect();
+        let scenarios: Vec<_> =
+            indices.clone().map(|index| ensemble.draw(hot.sigma, index)).collect();
         let start = |(run, scenario): (Option<Realisation>, &Scenario)| {
-            let free = run?.free_parts(chain);
+            let free = run?.free_parts(&ensemble.chain);
             Some(lowered(scenario, &free, hot.time, self.sigma / hot.sigma))
         };
-        let runs = heating.run(&scenarios, stopped).into_iter().zip(&scenarios);
+        let runs = heating.run(&scenarios, self.stopped).into_iter().zip(&scenarios);
         indices.zip(runs.map(start)).collect()
     }
 }

@@ -2,7 +2,6 @@
 
 use super::chosen::SECOND_SEED;
 use super::ensemble::{Beyond, Ensemble, Heating};
-use super::grid::Grid;
 use impact_chain::{Boundary, Chain, Protocol, Start};
 use literate::experiments::Profile;
 
@@ -73,10 +72,7 @@ pub fn protocol(profile: Profile) -> Vec<Ensemble> {
 
 /// The paper's chain, and chains that differ from it in start, ends or frequency.
 pub fn starts(profile: Profile) -> Vec<Ensemble> {
-    let (step, realisations) = match profile {
-        Profile::Full => (1, 100),
-        Profile::Quick => (2, 4),
-    };
+    let (step, realisations) = if profile == Profile::Quick { (2, 4) } else { (1, 100) };
     let variant = |name: &str, [from, to]: [u32; 2], change: fn(&mut Chain)| {
         let sigmas = Grid::default().and((from..=to).step_by(step), 100);
         let mut one = Ensemble { stream: "starts".into(), ..paper(name, sigmas, realisations) };
@@ -257,4 +253,21 @@ pub fn jump(profile: Profile) -> Vec<Ensemble> {
     ensembles.sort_by(|a, b| a.sigmas[0].total_cmp(&b.sigmas[0]));
     ensembles.sort_by_key(|one| one.chain.boundary == Boundary::Ring);
     ensembles
+}
+
+/// A σ axis made of stretches of equal steps; values are quotients, so 0.12 is the nearest double.
+#[derive(Clone, Debug, Default)]
+pub struct Grid(Vec<f64>);
+
+impl Grid {
+    /// Appends i / `denominator` for each numerator i.
+    pub fn and(mut self, numerators: impl IntoIterator<Item = u32>, denominator: u32) -> Self {
+        self.0.extend(numerators.into_iter().map(|i| f64::from(i) / f64::from(denominator)));
+        self
+    }
+
+    pub fn values(self) -> Vec<f64> {
+        debug_assert!(self.0.windows(2).all(|w| w[0] < w[1]));
+        self.0
+    }
 }

@@ -95,7 +95,6 @@ impl Setting {
         format!("{}, {letter} = {}{stop}", self.method.title(), decimal(self.value))
     }
 
-    /// Returns the method with this setting.
     pub fn method(self) -> Box<dyn Method> {
         self.method.with_setting(self.value, self.stop)
     }

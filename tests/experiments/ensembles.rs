@@ -17,7 +17,7 @@ fn small() -> Ensemble {
 }
 
 fn run(ensemble: &Ensemble, sigma: f64, realisations: u64) -> Counts {
-    ensemble.prepare(sigma).count(0..realisations, &|| false).unwrap().into_iter().collect()
+    ensemble.prepare(sigma, &|| false).count(0..realisations).unwrap().into_iter().collect()
 }
 
 #[test]
@@ -25,8 +25,7 @@ fn pieces_add_up_to_the_chain() {
     let whole = run(&small(), 0.16, 4);
     let pieces = run(&Ensemble { pieces: 2, ..small() }, 0.16, 4);
     for (whole, pieces) in whole.distinct.iter().zip(&pieces.distinct) {
-        let sums = pieces.chunks(2).map(|pair| Some(pair[0]? + pair[1]?));
-        assert!(sums.eq(whole.iter().copied()));
+        assert!(pieces.chunks(2).map(|pair| Some(pair[0]? + pair[1]?)).eq(whole.iter().copied()));
     }
 }
 

@@ -7,17 +7,6 @@ use std::{collections::BTreeSet, fs, process::Command};
 
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes");
 
-/// Judges what a file has, a line for each case with its impacts.
-const JUDGE: &str = "
-import json, sys
-sys.path.insert(0, sys.argv[1])
-import judge
-cases = {case['id']: case for scene in judge.load() for case in scene['cases']}
-for line in open(sys.argv[2]):
-    case, impacts = json.loads(line)
-    print(judge.judge(cases[case], impacts))
-";
-
 /// Impacts that are as expected, or nearly.
 fn expected(case: &Case) -> Vec<Impact> {
     let hit = |time, gap, closing_speed| Impact { time, gap, closing_speed };
@@ -70,7 +59,10 @@ fn both_judges_agree() {
     }
     let file = tempfile::NamedTempFile::new().unwrap();
     fs::write(&file, &lines).unwrap();
-    let run = Command::new("python3").args(["-B", "-c", JUDGE, FOLDER]).arg(file.path()).output();
+    let run = Command::new("python3")
+        .args(["-B", "-c", include_str!("judge_lines.py"), FOLDER])
+        .arg(file.path())
+        .output();
     let run = run.expect("this test needs python3, 3.9 or later: install it");
     assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
     let theirs = String::from_utf8(run.stdout).unwrap();

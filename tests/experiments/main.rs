@@ -5,5 +5,4 @@ mod judge;
 #[path = "../../crates/impact-chain/tests/physics/reference/mod.rs"]
 mod reference;
 mod scenes;
-mod segments;
 mod theory;

@@ -58,8 +58,7 @@ fn sigmas_invert_the_relation() {
 
 #[test]
 fn large_graphs_go_on_from_the_paper() {
-    let table = RESULTS.table("theory.large").unwrap();
-    let share = table.curve(&[], "n", "share").unwrap();
+    let share = RESULTS.table("theory.large").unwrap().curve(&[], "n", "share").unwrap();
     assert_eq!(number("theory.large[n=100].share"), number("theory.jump.k_after") / 100.0);
     assert!(share.windows(2).all(|w| w[1].1 < w[0].1));
     // At a step both ends are drawn.

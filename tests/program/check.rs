@@ -1,9 +1,7 @@
 //! Runs `impact-paper check`, and damages the templates: each fault has its file and line.
 
-use crate::{QUICK, ends, templates};
+use crate::*;
 use impact_paper::claims::Basis;
-use std::collections::BTreeMap;
-use std::path::Path;
 
 fn check(folder: &Path, more: &str, code: i32, words: &[&str]) -> String {
     let line = format!("check --profile quick --results r --templates t {more}");
@@ -64,23 +62,14 @@ fn every_statement_is_listed_and_one_that_differs_fails() {
     assert!(ledger.contains("\"verdict\": \"differs\""));
 }
 
-/// Exit code, file of the templates, its fault (or more lines), message ($ is the last line).
-const FAULTS: &str = r##"1 front.md +About 12 of them. => :$:7: hard-coded number 12
-2 literals.toml why = "what the model is -> why = " " # => : [
-2 claims/sec7.toml {first:8} -> {initial:8} => : [sec7_extrema] has {initial:8} in found; write {name} or {name:3}, with a name of first, crit, all
-2 published.toml [[statement]] -> [[statement => :
-2 published.toml printed = "N − 1" -> printed = "N − 2" => :447: the id "sec7_limit": its check judges "N − 1", and not its printed
-2 published.toml value = 0.04 -> value = 0.07 => : the parameter "fig14_p_b" is 0.07, and its check uses 0.04
-2 published.toml "fig14_p_b" -> "fig14_p_c" => : no parameter "fig14_p_b"
-2 edition/09-higher.md frac{1}{24} -> frac{1}{25} => :66:1: equation (36) has the digits 1001251434, in the list 1001241434
-2 published.toml "sec2_half_height" -> "sec2_new" => : no statement "sec2_half_height""##;
-
+/// The table has the exit code, a file of the templates, its fault (or more lines), and the message
+/// ($ is the last line).
 #[test]
 fn faults_of_the_prose_are_reported_with_their_place() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
     crate::put(&here.join("r"), &QUICK.results);
-    for line in FAULTS.lines() {
+    for line in include_str!("faults.txt").lines() {
         let (given, message) = line.split_once(" => ").unwrap();
         let [expected, file, fault] = given.splitn(3, ' ').collect::<Vec<_>>().try_into().unwrap();
         let _ = std::fs::remove_dir_all(here.join("t"));

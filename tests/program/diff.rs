@@ -1,9 +1,6 @@
 //! Runs `impact-paper diff` on two reports, by folder or by revision of git.
 
-use crate::{answer, outcome, program, put, refused, tree};
-use std::fs;
-use std::path::Path;
-use std::process::Command;
+use crate::*;
 
 /// Some files of the committed report twice, as `a` and as `b`, which has another number, verdict
 /// and datum, lacks a file and has a new one.

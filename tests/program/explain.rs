@@ -1,6 +1,6 @@
 //! Runs `impact-paper explain` on the report of the quick profile.
 
-use crate::{QUICK, answer, outcome, program, put, refused};
+use crate::*;
 
 fn report() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
@@ -8,25 +8,11 @@ fn report() -> tempfile::TempDir {
     folder
 }
 
-/// What is asked for, and parts of the answer.
-const CARDS: &str = "\
-sweep.rise.half_height => standard error; impact_chain::rise::Curve::new (crates/impact-chain/src/rise.rs:; seed: 2007
-sweep.rise.half_height => chain masses: 100; sweep-rise.csv
-second_seed.rise.half_height => seed: 7002
-theory.jump.p_jump => 0.013033; without chance
-theory.jump.p_crit => 0.0122099; impact_circuits::jump::p_crit (crates/circuits/src/jump.rs:; (18)
-printed.sec2_half_height => that the paper prints; Sec. 2
-fig:3 => fig03.svg; figures::fig03 (src/figures/fig03.rs); seed: 2007; sigmas: 18 from 0.02 to 0.4
-fig:s4 => transients: 2, 4, 8, 20, 40
-fig:s10 => experiments::accuracy::race (src/experiments/accuracy/race.rs
-eq:18 => impact_circuits::jump::p_crit (crates/circuits/src/jump.rs:; theory.jump.p_crit, theory.jump.p_crit_walls
-claim:sec7_jump => Reproduced.; tolerance
-eq:12 => f_N,p(k)";
-
+/// The table has what is asked for, and parts of the answer.
 #[test]
 fn values_figures_equations_and_claims_are_explained() {
     let folder = report();
-    for line in CARDS.lines() {
+    for line in include_str!("cards.txt").lines() {
         let (id, parts) = line.split_once(" => ").unwrap();
         let card = answer(folder.path(), &format!("explain --paper r {id}"));
         assert!(!card.contains("\\mathrm") && !card.contains("\\Phi"), "{card}");

@@ -80,8 +80,7 @@ fn refused(folder: &Path, arguments: &str, words: &[&str]) {
 
 /// A saved result with other text in its second or third line, and a checksum that is right.
 fn forged(bytes: &[u8], line: usize, from: &str, to: &str) -> Vec<u8> {
-    let json = std::str::from_utf8(bytes).unwrap();
-    let mut lines: Vec<&str> = json.lines().collect();
+    let mut lines: Vec<&str> = std::str::from_utf8(bytes).unwrap().lines().collect();
     let changed = lines[line].replacen(from, to, 1);
     assert_ne!(changed, lines[line], "there is no {from}");
     lines[line] = &changed;
@@ -92,8 +91,7 @@ fn forged(bytes: &[u8], line: usize, from: &str, to: &str) -> Vec<u8> {
 /// Copies the project's templates, and changes one of their files.
 fn templates(to: &Path, file: &str, change: impl Fn(&str) -> String) {
     put(to, &tree(Path::new(TEMPLATES)));
-    let prose = fs::read_to_string(to.join(file)).unwrap();
-    fs::write(to.join(file), change(&prose)).unwrap();
+    fs::write(to.join(file), change(&fs::read_to_string(to.join(file)).unwrap())).unwrap();
 }
 
 type Files = BTreeMap<String, Vec<u8>>;

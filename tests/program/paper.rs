@@ -1,11 +1,8 @@
 //! Runs `impact-paper paper` and `verify`: what runs, what is written, what is left.
 
-use crate::{EXPERIMENTS, QUICK, SCENARIO, answer, ended_with, ends, files, program, put, refused};
-use crate::{sha256, tree};
-use std::fs;
+use crate::*;
 use std::io::{BufRead, BufReader};
-use std::path::Path;
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, Stdio};
 
 #[test]
 fn a_figure_alone_runs_and_writes_no_more_than_it_needs() {
@@ -21,8 +18,7 @@ fn a_figure_alone_runs_and_writes_no_more_than_it_needs() {
     assert!(written.contains_key("figures/fig03.svg"), "{:?}", written.keys());
     assert!(written.keys().all(|name| name.contains("fig03") || name == "SHA256SUMS"));
     let name = "sweep-quick.json".to_string();
-    let only = [(name.clone(), QUICK.results[&name].clone())];
-    assert_eq!(files(&here.join("r")), only.into());
+    assert_eq!(files(&here.join("r")), [(name.clone(), QUICK.results[&name].clone())].into());
 }
 
 #[test]

@@ -1,13 +1,7 @@
 //! Tests that saved results are never stale or half, and that shared work has the same bytes.
 
-use crate::{
-    EXPERIMENTS, Files, PROGRAM, QUICK, ended_with, ends, files, forged, outcome, program, put,
-    sha256, shard,
-};
+use crate::*;
 use std::collections::BTreeSet;
-use std::fs;
-use std::path::Path;
-use std::process::Command;
 use std::time::Duration;
 
 fn together() -> tempfile::TempDir {

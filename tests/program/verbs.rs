@@ -1,14 +1,13 @@
 //! Runs the verbs that this paper adds to the program: `eval`, `sweep` and `trace`.
 
-use crate::{SCENARIO, answer, ends, folder, program, refused};
+use crate::*;
 use impact_circuits::distribution::{Law, SampleSpace};
 use impact_circuits::impact_probability::ImpactProbability;
 use impact_circuits::{counting, jump};
 use impact_paper::params::{Chain, MethodName};
 use serde_json::{Value, json};
 use std::io::Write;
-use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::Stdio;
 
 fn eval(arguments: &str) -> String {
     answer(Path::new("."), &format!("eval {arguments}"))
@@ -119,15 +118,13 @@ fn parts_windows_and_parameters_of_a_sweep() {
         for (option, value) in small.into_iter().filter(|(option, _)| !options.contains(option)) {
             line += &format!(" --{option} {value}");
         }
-        let table = answer(Path::new("."), &line);
         let row = |line: &str| line.split(',').map(String::from).collect();
-        table.lines().skip(1).map(row).collect()
+        answer(Path::new("."), &line).lines().skip(1).map(row).collect()
     };
     let impacts = |options: &str| cells(options)[0][8].parse::<u64>().unwrap();
     let parts = ["0..10", "10..24"].map(|part| impacts(&format!(" --realisations {part}")));
     assert_eq!(impacts(""), parts.iter().sum::<u64>());
-    let both = cells(" --transient 10,50 --window 40");
-    for (transient, row) in ["10", "50"].into_iter().zip(&both) {
+    for (transient, row) in ["10", "50"].into_iter().zip(&cells(" --transient 10,50 --window 40")) {
         let alone = cells(&format!(" --transient {transient} --window 40"));
         assert_eq!((&row[1..8], &row[16..]), (&alone[0][1..8], &alone[0][16..]), "{transient}");
     }

@@ -1,7 +1,7 @@
 //! Reads the documents by a CommonMark parser, as a host does, and bounds their lengths: a reader
 //! of five minutes, half an hour or a day must not find that one has grown beyond its time.
 
-use super::QUICK;
+use super::*;
 use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
 
 /// Words of prose: no code, no displayed formula, no table, no address of a link, no description
@@ -60,8 +60,7 @@ fn links(text: &str) -> [Vec<String>; 2] {
         }
         _ => None,
     };
-    let places =
-        text.split("<a id=\"").skip(1).map(|piece| piece.split('"').next().unwrap().into());
+    let places = text.split("<a id=\"").skip(1).map(|part| part.split('"').next().unwrap().into());
     [events(text).into_iter().filter_map(link).collect(), places.collect()]
 }
 

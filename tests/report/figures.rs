@@ -1,12 +1,11 @@
 //! Checks that every figure is well-formed, described and labelled, and has its data.
 
-use super::QUICK;
 use super::picture::{Label, Picture, pictures};
-use impact_paper::experiments::{Progress, SEGMENTS, Store};
+use super::*;
+use impact_paper::experiments::SEGMENTS;
 use impact_paper::figures;
 use impact_paper::params::{Profile, VERTICES};
 use roxmltree::Document;
-use std::collections::{BTreeMap, BTreeSet};
 
 #[test]
 fn every_figure_is_a_titled_and_described_picture() {

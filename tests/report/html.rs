@@ -1,9 +1,8 @@
 //! Reads the pages by an XML parser, with the results of the quick profile.
 
-use super::QUICK;
+use super::*;
 use literate::report;
 use roxmltree::{Document, Node, ParsingOptions};
-use std::collections::{BTreeMap, BTreeSet};
 
 fn parsed(text: &str) -> Document<'_> {
     let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
@@ -73,12 +72,11 @@ fn every_value_has_one_card() {
         assert!(html.contains(part), "{part:?} is not in {html:?}");
     }
     // The headline number stands in an equation, and opens there too.
-    let page = parsed(QUICK.file_text("report.html"));
     let headline = |node: &Node<'_, '_>| {
         node.attribute("data-card") == Some("sweep.rise.half_height")
             && node.ancestors().any(|outer| outer.attribute("class") == Some("equation"))
     };
-    assert!(page.descendants().any(|node| headline(&node)));
+    assert!(parsed(QUICK.file_text("report.html")).descendants().any(|node| headline(&node)));
 }
 
 /// Colours of what is drawn come from the style sheet, which knows light from dark.
@@ -105,8 +103,7 @@ fn every_page_says_how_to_cite_it() {
         let [cite] = boxes[..] else { panic!("{} boxes", boxes.len()) };
         let entry = words(cite);
         assert!(entry.contains(&format!("@misc{{impactpaper2026{},", document.prose)), "{entry}");
-        let authors: Vec<_> =
-            QUICK.paper.edition.authors.iter().map(|(author, _)| *author).collect();
+        let authors = Vec::from_iter(QUICK.paper.edition.authors.iter().map(|(author, _)| *author));
         assert!(authors.iter().all(|author| entry.contains(author)), "{entry}");
         // What Google Scholar reads: a line for each author.
         let metas = elements(&page, "meta");
@@ -126,8 +123,7 @@ fn equations_are_mathml() {
     let page = parsed(QUICK.file_text("report.html"));
     assert!(elements(&page, "math").len() > 300);
     assert!(elements(&page, "merror").is_empty());
-    let text_nodes = page.descendants().filter(Node::is_text);
-    for node_text in text_nodes.filter_map(|node| node.text()) {
+    for node_text in page.descendants().filter(Node::is_text).filter_map(|node| node.text()) {
         assert!(!node_text.contains(['\u{e000}', '\u{e003}', '\u{e005}', '$']), "{node_text:?}");
     }
 }

@@ -1,10 +1,8 @@
 //! Reads all imports, and refuses those that DESIGN.md does not allow, and circles.
 
-use super::QUICK;
+use super::*;
 use proc_macro2::{TokenStream, TokenTree};
-use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::path::Path;
 
 /// Crates by the names of their libraries, and the folders of their source.
 const CRATES: [(&str, &str); 8] = [
@@ -27,32 +25,55 @@ fn word(trees: &[TokenTree], place: usize) -> String {
     }
 }
 
-/// A path of modules.
+/// A path of modules or to an item; `*` at its end stands for all that is there.
 type Place = Vec<String>;
 
-/// What a module has: names of items and of imports with what they name, and all paths.
+/// What a module has: names of items, imports with the names that they give, and all paths.
 #[derive(Default)]
 struct Module {
     file: String,
     items: BTreeSet<String>,
-    imports: BTreeMap<String, Place>,
-    globs: Vec<Place>,
+    imports: Vec<(String, Place)>,
     paths: Vec<Place>,
 }
 
-/// All modules, by their paths, of which the first part is the name of the crate.
+impl Module {
+    /// Reads what an import names, of which a part was read before.
+    fn import(&mut self, trees: &[TokenTree], before: &[String]) {
+        for trees in trees.split(|tree| tree.to_string() == ",") {
+            if let Some((TokenTree::Group(group), first)) = trees.split_last() {
+                let inner: Vec<TokenTree> = group.stream().into_iter().collect();
+                self.import(&inner, &[before, &names(first)].concat());
+                continue;
+            }
+            let alias = trees.iter().position(|tree| tree.to_string() == "as");
+            let mut path = [before, &names(&trees[..alias.unwrap_or(trees.len())])].concat();
+            path.pop_if(|last| last == "self");
+            let name = alias.map(|place| word(trees, place + 1)).or(path.last().cloned());
+            self.imports.extend(name.map(|name| (name, path.clone())));
+            self.paths.push(path);
+        }
+    }
+}
+
+/// The parts of a path.
+fn names(trees: &[TokenTree]) -> Place {
+    trees.iter().map(TokenTree::to_string).filter(|part| part != ":").collect()
+}
+
+/// All modules, by their paths, of which the first part is the name of the crate; and the files of
+/// macros, which have their places at the top of the crate if they are exported.
 #[derive(Default)]
 struct Modules {
     all: BTreeMap<Place, Module>,
+    macros: BTreeMap<Place, String>,
 }
 
 impl Modules {
     fn read(&mut self, path: &[String], file: &str, tokens: TokenStream) {
         let mut module = Module { file: file.into(), ..Module::default() };
         self.collect(path, tokens, true, &mut module);
-        let known = self.all.entry(path.to_vec()).or_default();
-        module.imports.append(&mut known.imports);
-        *known = module;
+        self.all.insert(path.to_vec(), module);
     }
 
     /// Reads the tokens of a module, or, not at its top, those between brackets.
@@ -61,10 +82,13 @@ impl Modules {
         let (mut i, sign) = (0, |place: usize| word(&trees, place));
         while let Some(tree) = trees.get(i) {
             match (sign(i).as_str(), tree, trees.get(i + 2)) {
-                ("use", ..) if sign(i + 1) != "<" => i = import(&trees, i + 1, &[], module),
+                ("use", ..) if sign(i + 1) != "<" => {
+                    let end = (i..trees.len()).find(|&place| sign(place) == ";").unwrap();
+                    module.import(&trees[i + 1..end], &[]);
+                    i = end;
+                }
                 ("mod", _, Some(TokenTree::Group(items))) if top => {
-                    let child = [path, &[sign(i + 1)]].concat();
-                    self.read(&child, &module.file, items.stream());
+                    self.read(&[path, &[sign(i + 1)]].concat(), &module.file, items.stream());
                     i += 2;
                 }
                 (
@@ -74,13 +98,8 @@ impl Modules {
                     module.items.insert(sign(i + 1));
                 }
                 ("macro_rules", ..) => {
-                    // A macro that is exported has its place at the top of the crate.
-                    let name = sign(i + 2);
-                    let mut inside = [&["crate".to_string()], &path[1..]].concat();
-                    inside.push(name.clone());
-                    let whole_crate = self.all.entry(path[..1].to_vec()).or_default();
-                    whole_crate.imports.insert(name.clone(), inside);
-                    module.items.insert(name);
+                    module.items.insert(sign(i + 2));
+                    self.macros.insert(vec![path[0].clone(), sign(i + 2)], module.file.clone());
                 }
                 (_, TokenTree::Group(group), _) => {
                     self.collect(path, group.stream(), false, module);
@@ -108,9 +127,9 @@ impl Modules {
         };
         let inside = match name.as_str() {
             "crate" => from[..1].to_vec(),
-            "self" => from.to_vec(),
+            "self" | "*" => from.to_vec(),
             "super" => from[..from.len() - 1].to_vec(),
-            _ => match self.named(from, name, steps.checked_sub(1)?)? {
+            _ => match self.find(from, name, steps.checked_sub(1)?)? {
                 Found::Module(inside) => inside,
                 item => return Some(item),
             },
@@ -118,69 +137,37 @@ impl Modules {
         self.resolve(&inside, rest, steps)
     }
 
-    fn named(&self, from: &[String], name: &String, steps: usize) -> Option<Found> {
+    /// Finds what a name stands for in a module: a module, an item, what is imported under the
+    /// name or with all of another module, or a crate.
+    fn find(&self, from: &[String], name: &String, steps: usize) -> Option<Found> {
         let module = self.all.get(from)?;
         let child = [from, std::slice::from_ref(name)].concat();
         if self.all.contains_key(&child) {
             return Some(Found::Module(child));
         }
-        if module.items.contains(name) {
-            return Some(Found::Item(module.file.clone()));
+        let file = module.items.contains(name).then_some(&module.file);
+        if let Some(file) = file.or(self.macros.get(&child)) {
+            return Some(Found::Item(file.clone()));
         }
-        if let Some(path) = module.imports.get(name).filter(|path| path[..] != [name.clone()]) {
+        let is_named = |(own, path): &&(String, Place)| own == name && path[..] != [name.clone()];
+        if let Some((_, path)) = module.imports.iter().rfind(is_named) {
             return self.resolve(from, path, steps);
         }
-        let by_glob = |glob: &Place| match self.resolve(from, glob, steps.checked_sub(1)?)? {
-            Found::Module(inside) => self.named(&inside, name, steps - 1),
+        let by_glob = |(_, path): &(String, Place)| match self.resolve(from, path, steps)? {
+            Found::Module(inside) => self.find(&inside, name, steps.checked_sub(1)?),
             Found::Item(_) => None,
         };
         let is_crate = CRATES.iter().any(|(known, _)| known == name);
         let by_crate = || is_crate.then(|| Found::Module(vec![name.clone()]));
-        module.globs.iter().find_map(by_glob).or_else(by_crate)
+        let mut globs = module.imports.iter().filter(|(own, _)| own == "*");
+        globs.find_map(by_glob).or_else(by_crate)
     }
 }
 
 /// What a path names: an item of a file, or a module.
-#[derive(Clone)]
 enum Found {
     Item(String),
     Module(Place),
-}
-
-/// Reads what an import names, of which a part was read before, and returns the place behind it.
-fn import(trees: &[TokenTree], mut i: usize, before: &[String], module: &mut Module) -> usize {
-    let mut path = before.to_vec();
-    loop {
-        match (word(trees, i).as_str(), trees.get(i)) {
-            (_, Some(TokenTree::Group(group))) => {
-                let inner: Vec<TokenTree> = group.stream().into_iter().collect();
-                let mut place = 0;
-                while place < inner.len() {
-                    place = import(&inner, place, &path, module) + 1;
-                }
-                return i + 1;
-            }
-            ("*", _) => {
-                module.globs.push(path);
-                return i + 1;
-            }
-            ("as", _) => {
-                module.imports.insert(word(trees, i + 1), path.clone());
-                module.paths.push(path);
-                return i + 2;
-            }
-            ("" | "," | ";", _) => break,
-            (":", _) => (),
-            (name, _) => path.push(name.into()),
-        }
-        i += 1;
-    }
-    path.pop_if(|last| last == "self");
-    if let Some(last) = path.last() {
-        module.imports.insert(last.clone(), path.clone());
-        module.paths.push(path);
-    }
-    i
 }
 
 /// Which files each file imports, by the item that a name resolves to.
@@ -206,11 +193,12 @@ fn arrows() -> BTreeMap<String, BTreeSet<String>> {
     }
     let mut arrows: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
     for (path, module) in &modules.all {
-        let globs = module.globs.iter().map(|glob| (glob, true));
-        for (used, is_glob) in module.paths.iter().map(|path| (path, false)).chain(globs) {
+        for used in &module.paths {
             let imported = match modules.resolve(path, used, 9) {
                 Some(Found::Item(file)) => file,
-                Some(Found::Module(imported)) if is_glob => modules.all[&imported].file.clone(),
+                Some(Found::Module(imported)) if used.ends_with(&["*".into()]) => {
+                    modules.all[&imported].file.clone()
+                }
                 _ => continue,
             };
             if imported != module.file {
@@ -259,8 +247,7 @@ fn imports_are_those_of_the_drawing() {
             let rest = inside.strip_prefix(name);
             rest.is_some_and(|rest| rest.starts_with('/') || rest.starts_with(".rs"))
         };
-        let matching = layers.iter().filter(|(name, _)| is_in(name));
-        matching.max_by_key(|(name, _)| name.len())
+        layers.iter().filter(|(name, _)| is_in(name)).max_by_key(|(name, _)| name.len())
     };
     let mut wrong = Vec::new();
     for (from, to) in arrows() {

@@ -1,8 +1,7 @@
 //! Checks that every figure can be read: on a phone, on dark pages, and without colours.
 
-use super::QUICK;
 use super::picture::{Label, Picture, Shape, bounds, pictures};
-use std::collections::{BTreeMap, BTreeSet};
+use super::*;
 
 /// The style of pages; its second part is for dark ones.
 const STYLE: &str = include_str!("../../crates/literate/skin/style/base.css");
@@ -57,13 +56,6 @@ const CHECKS: [(&str, Check); 6] = [
     ("told apart by colours only", alike),
     ("a colour of one page only", misnamed),
 ];
-
-/// A drawing in which each of them is found.
-const BROKEN: &str = r#"<svg viewBox="0 0 8400 4000"><g class="fill-ink" aria-label="words"
-    transform="translate(8350 500) scale(.25 -.25)"><use transform="translate(0 0) scale(.7)"/></g>
-    <g data-name="a" data-frame=""><path class="stroke-red" fill="none" d="M7900 450h480"/></g>
-    <g data-name="b" data-frame=""><path class="stroke-green" fill="none" d="M900 500h800"/></g>
-    <g data-name="c" data-frame=""><path class="stroke-pale" fill="none" d="M900 600h800"/></g></svg>"#;
 
 /// What reaches beyond the sheet.
 fn cut(picture: &Picture) -> Vec<String> {
@@ -155,7 +147,9 @@ fn misnamed(picture: &Picture) -> Vec<String> {
 #[test]
 fn every_figure_can_be_read() {
     let (pictures, mut found) = (pictures(), Vec::new());
-    let broken = Picture::of("broken", BROKEN, "The darker, the more.".into());
+    // In this drawing each fault is found.
+    let broken = include_str!("broken.svg");
+    let broken = Picture::of("broken", broken, "The darker, the more.".into());
     for (what, check) in CHECKS {
         assert!(!check(&broken).is_empty(), "nothing is found {what}");
         for picture in &pictures {

@@ -1,9 +1,7 @@
 //! Reads a figure as it is seen: its words with their boxes, and the shapes of its data.
 
-use super::QUICK;
+use super::*;
 use roxmltree::{Document, Node};
-use std::collections::BTreeSet;
-use std::path::Path;
 
 /// Numbers of a list such as `1,2 3,4`.
 fn numbers(list: &str) -> Vec<f64> {
@@ -16,10 +14,8 @@ fn numbers(list: &str) -> Vec<f64> {
 /// Where the steps of a path end, stroke by stroke.
 fn strokes(d: &str) -> Vec<Vec<(f64, f64)>> {
     let mut strokes: Vec<Vec<(f64, f64)>> = Vec::new();
-    let letters: Vec<usize> =
-        d.match_indices(|c: char| c.is_ascii_alphabetic()).map(|m| m.0).collect();
-    let ends = letters.iter().skip(1).copied().chain([d.len()]);
-    for (from, to) in letters.iter().zip(ends) {
+    let letters = Vec::from_iter(d.match_indices(|c: char| c.is_ascii_alphabetic()).map(|m| m.0));
+    for (from, to) in letters.iter().zip(letters.iter().skip(1).copied().chain([d.len()])) {
         let n = numbers(&d[from + 1..to]);
         let (x, y) = strokes.last().and_then(|stroke| stroke.last().copied()).unwrap_or_default();
         let end = match &d[*from..from + 1] {

@@ -1,14 +1,12 @@
 //! Tests that the prose has each equation, figure and claim, and that verdicts follow numbers.
 
-use super::QUICK;
+use super::*;
 use impact_chain::rise::Mean;
 use impact_numerics::estimates::with_error;
 use impact_numerics::statistics::Estimate;
 use impact_paper::claims::{self, Verdict};
 use impact_paper::experiments::accuracy::case::Outcome::Missed;
-use impact_paper::experiments::{
-    ALL, AnyExperiment, LENGTHS, MODE_JUMP, PROTOCOL, RACE, REPLAY, Results, SCALE, SWEEP, TRIALS,
-};
+use impact_paper::experiments::*;
 use impact_paper::figures;
 use impact_paper::params::MethodName;
 
@@ -76,8 +74,7 @@ fn judged(results: &Results, expected: &[(&str, Verdict)]) {
     rules.retain(|rule| expected.iter().any(|(id, _)| *id == rule.id));
     let checks = claims::judge_all(&QUICK.published, &rules, results).unwrap();
     for (id, verdict) in expected {
-        let judged_as = checks.iter().find(|check| check.id == *id).unwrap().verdict;
-        assert_eq!(judged_as, *verdict, "{id}");
+        assert_eq!(checks.iter().find(|check| check.id == *id).unwrap().verdict, *verdict, "{id}");
     }
 }
 

@@ -1,9 +1,8 @@
 //! Tests rules about the source that no compiler checks.
 
-use super::QUICK;
+use super::*;
 use literate::report::EquationEntry;
 use literate::value::Value;
-use std::collections::BTreeMap;
 
 /// The comment of an equation's home says its number, and belongs to the item.
 #[test]

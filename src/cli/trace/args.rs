@@ -6,42 +6,9 @@ use impact_chain::LATEST;
 use impact_paper::params::MethodName::{self, *};
 use std::path::PathBuf;
 
-/// Print the impacts of a scenario as CSV: time, gap, closing speed
-///
-/// Masses 1..n in a row, points, each on a spring to its place: between impacts
-///   x_j'' = w^2 (j d - x_j) + alpha_j cos Wt + beta_j sin Wt.
-/// Where neighbours meet, their velocities jump: the gap opens at r times the speed at which it
-/// closed, and momentum is conserved. All masses are 1; walls, at 0 and (n + 1) d, do not move.
-/// Times are in units of 1/w, lengths of d, if these are 1. Not in the model: damping, springs
-/// between masses, unequal masses or springs, friction, three at once (pairs collide in turn).
-///
-/// Examples:
-///   trace chain.json --until 100
-///   trace - --until 100 --max-impacts 20 < chain.json
-///   trace chain.json --at 0..100:0.5
-///   trace chain.json --at period --until 1000
-///   trace chain.json --until 100 --save state.json
-///   trace chain.json --from state.json --until 200 --events
-///   trace - --lines --keep-going --until 100 < chains.jsonl
-///   trace chain.json --until 100 --method verlet --step 0.01
-///   trace chain.json --until 100 --method truth
-///
-/// Count gaps from the left wall: gap 0 lies between it and mass 1, gap j between masses j and j +
-/// 1; on a ring gap n lies between masses n and 1. Of neighbouring gaps that close at exactly the
-/// same instant, the fastest comes first. A note on stderr says how many impacts coincide, and how
-/// often rounding could not decide whether a gap closes (method certified).
-///
-/// Do not trust single impacts far into a chaotic run: errors grow about tenfold in a dozen units
-/// of time. Compare with --method truth to see from when on a run is off. The truth has every
-/// time to 106 bits, but only for walls, one frequency and no contact; it takes the next gap from
-/// the engine, so it cannot show an impact that the engine misses.
-///
-/// Amplitudes are refused where rounding may move a gap by more than 1e-6 of the spacing (near
-/// resonance, say): give smaller ones. From 1e-9 on, a note on stderr says by how much (methods in
-/// closed form). Bodies that part more slowly than 1e-10 d w stay in contact while forces press
-/// them.
 #[derive(clap::Args)]
-#[command(verbatim_doc_comment, after_help = SCENARIO_HELP)]
+#[command(about = "Print the impacts of a scenario as CSV: time, gap, closing speed")]
+#[command(long_about = include_str!("about.txt"), after_help = include_str!("scenario.txt"))]
 pub struct Args {
     /// Read the scenario from this JSON file (the form is below), 64 MiB at most; - for standard
     /// input.
@@ -124,18 +91,3 @@ fn method_names() -> impl TypedValueParser<Value = MethodName> {
     let names: Vec<PossibleValue> = METHODS.iter().map(name).collect();
     PossibleValuesParser::new(names).try_map(|name| serde_json::from_value(name.into()))
 }
-
-const SCENARIO_HELP: &str = r#"The scenario, with the defaults of everything but "forcing":
-  {"spacing": 1, "natural_frequency": 1, "forcing_frequency": 1.4142135623730951,
-   "restitution": 0.8, "boundary": "walls", "initial": "rest",
-   "forcing": [[alpha_1, beta_1], ..., [alpha_n, beta_n]]}
-Several components of the forcing, 8 at most:
-   "forcing_frequencies": [W_1, W_2, ...], "forcing": [[[alpha_1, beta_1], ...], [[...], ...], ...]
-boundary: "walls" or "ring".
-places:   [p_1, ..., p_n] instead of j d, and "walls": [left, right] instead of [0, (n + 1) d]
-          (not on a ring): for gaps of any width, a wall far away, constant forces F (they shift a
-          place by F/w^2).
-initial:  "rest" (at equilibrium), "zero" (no free part),
-          {"free": [[a_1, b_1], ...]} (x_j = j d + a_j cos wt + b_j sin wt + forced response),
-          {"at": {"positions": [x_1, ...], "velocities": [v_1, ...]}} (from the left wall),
-          {"random": {"sigma": s, "seed": k}} (normal free parts)."#;

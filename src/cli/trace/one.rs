@@ -19,9 +19,7 @@ use std::sync::mpsc::SyncSender;
 /// What every scenario is run with.
 pub struct Job {
     pub args: Args,
-    /// Step or tolerance of the method.
     pub setting: f64,
-    /// The state from which to go on, if there is one.
     pub start: Option<State>,
     /// The bits of the time of the latest event.
     pub latest: Arc<AtomicU64>,
@@ -40,19 +38,23 @@ pub enum Part {
 /// Bytes of rows that are handed on together.
 const BLOCK: usize = 1 << 13;
 
-/// Collects rows, each of which begins with the same cells.
-struct Rows {
+/// A run of one scenario, with its rows, each of which begins with the same cells.
+struct Run<'a> {
+    job: &'a Job,
     first_cells: String,
     block: String,
-    none_yet: bool,
-    /// Whether somebody takes them.
-    wanted: bool,
+    is_silent: bool,
+    /// Whether somebody takes the rows.
+    is_wanted: bool,
     sender: SyncSender<Part>,
 }
 
-impl Rows {
+/// What a run cost, and its state at the end if that is asked for.
+type Ended = Result<(Cost, Option<State>), Error>;
+
+impl Run<'_> {
     fn row(&mut self, cells: Arguments) {
-        self.none_yet = false;
+        self.is_silent = false;
         // A text takes all that is written.
         let _ = writeln!(self.block, "{}{cells}", self.first_cells);
         if self.block.len() > BLOCK {
@@ -61,8 +63,139 @@ impl Rows {
     }
 
     fn hand_on(&mut self) {
-        let block = std::mem::take(&mut self.block);
-        self.wanted &= self.sender.send(Part::Rows(block)).is_ok();
+        self.is_wanted &= self.sender.send(Part::Rows(std::mem::take(&mut self.block))).is_ok();
+    }
+
+    /// Runs the scenario of a text; returns how that went, and what is to be noted.
+    fn trace(&mut self, name: &str, text: &str) -> (Result<(), Failure>, Vec<String>) {
+        let scenario = match Scenario::from_json(text) {
+            Ok(scenario) => scenario,
+            Err(error) => return (Err(in_file(name, error)), Vec::new()),
+        };
+        let start = self.job.start.clone().unwrap_or_else(|| State::from_scenario(&scenario));
+        let ran = if self.job.args.method == MethodName::Certified {
+            self.by_engine(&scenario, &start)
+        } else {
+            self.by_method(&scenario, &start)
+        };
+        let mut notes = ran.as_ref().map_or(Vec::new(), |(cost, _)| doubts(cost));
+        let width = rounding::gap_error(&scenario);
+        let closed = matches!(self.job.args.method, MethodName::Certified | MethodName::Sampled);
+        let began = matches!(ran, Ok(_) | Err(Error::Work { .. }));
+        if closed && began && width > rounding::REPORTED * scenario.spacing {
+            notes.push(format!(
+                "rounding of large amplitudes may move each impact at closing speed v by {width:.1e}/v, \
+                 and errors grow from impact to impact"
+            ));
+        }
+        let ran = ran.map_err(|error| {
+            let field = error.field().unwrap_or_default();
+            let of_state = ["time", "positions", "velocities"].iter().any(|f| field.starts_with(f));
+            match &self.job.args.from {
+                Some(path) if of_state => in_file(&format!("--from: {}", path.display()), error),
+                _ => in_file(name, error),
+            }
+        });
+        let ended = ran.and_then(|(_, state)| match (&self.job.args.save, state) {
+            (Some(path), Some(state)) => save(path, &state),
+            _ => Ok(()),
+        });
+        (ended, notes)
+    }
+
+    fn note_time(&self, time: f64) {
+        self.job.latest.store(time.to_bits(), Relaxed);
+    }
+
+    fn by_method(&mut self, scenario: &Scenario, start: &State) -> Ended {
+        let mut left = self.job.args.max_impacts.unwrap_or(u64::MAX);
+        let until = if left == 0 { start.time } else { self.job.args.until.unwrap_or_default() };
+        let method = self.job.args.method.with_setting(self.job.setting, 0.0);
+        let mut sink = |Impact { time, gap, closing_speed }| {
+            self.note_time(time);
+            if left > 0 {
+                self.row(format_args!("{time:?},{gap},{closing_speed:?}"));
+                left -= 1;
+            }
+            left > 0 && self.is_wanted
+        };
+        Ok((method.run(Task { scenario, start, until }, &mut sink)?, None))
+    }
+
+    /// Prints events, or states at given times; returns the state at the end.
+    fn by_engine(&mut self, scenario: &Scenario, start: &State) -> Ended {
+        let mut engine = Engine::from_state(scenario, start)?;
+        let end = match &self.job.args.at {
+            Some(times) => self.states(times, scenario.forcing_frequency, &mut engine)?,
+            None => self.events(&mut engine)?,
+        };
+        let Counters { impacts, simultaneous, undecided, .. } = engine.counters();
+        let first_graze = engine.first_graze();
+        let cost = Cost { impacts, simultaneous, undecided, first_graze, ..Cost::default() };
+        Ok((cost, self.job.args.save.as_ref().map(|_| engine.state(end)).transpose()?))
+    }
+
+    /// Prints each impact, or each event; returns the time of the end.
+    fn events(&mut self, engine: &mut Engine) -> Result<f64, Error> {
+        let (all, until) = (self.job.args.events, self.job.args.until.unwrap_or_default());
+        let mut left = self.job.args.max_impacts.unwrap_or(u64::MAX);
+        if left == 0 {
+            return Ok(engine.time());
+        }
+        let ended = engine.run(until, |event, _| {
+            let time = event.time();
+            self.note_time(time);
+            let (name, gaps) = match event {
+                Event::Impact(Impact { gap, closing_speed, .. }) => {
+                    let name = if all { "impact," } else { "" };
+                    self.row(format_args!("{time:?},{name}{gap},{closing_speed:?}"));
+                    left -= 1;
+                    ("", &[][..])
+                }
+                Event::Stick { gaps, .. } => ("stick", &gaps[..]),
+                Event::Release { gaps, .. } => ("release", &gaps[..]),
+                Event::Graze(Graze { gap, .. }) => ("graze", std::slice::from_ref(gap)),
+                _ => ("", &[][..]),
+            };
+            for gap in gaps.iter().filter(|_| all) {
+                self.row(format_args!("{time:?},{name},{gap},"));
+            }
+            if left > 0 && self.is_wanted { Continue(()) } else { Break(()) }
+        })?;
+        Ok(if ended == End::Stopped { engine.time() } else { until })
+    }
+
+    /// Prints time, place and velocity of each mass at given times; returns the time of the end.
+    fn states(&mut self, times: &Times, frequency: f64, engine: &mut Engine) -> Result<f64, Error> {
+        let (from, until) = (engine.time(), self.job.args.until);
+        let period = TAU / frequency;
+        let times: Box<dyn Iterator<Item = f64>> = match times {
+            Times::Values(times) => Box::new(times.iter().copied()),
+            Times::OncePerPeriod => {
+                let multiples = (from / period) as u64..;
+                Box::new(multiples.map(|k| k as f64 * period).skip_while(|time| *time < from))
+            }
+        };
+        let (mut last, mut printed) = (from, None);
+        for time in times.take_while(|time| *time <= until.unwrap_or(LATEST)) {
+            // Equal times have one state.
+            if printed.replace(time) == Some(time) {
+                continue;
+            }
+            engine.advance(time)?;
+            self.note_time(time);
+            let state = engine.state(time)?;
+            for (j, (x, v)) in state.positions.iter().zip(&state.velocities).enumerate() {
+                self.row(format_args!("{time:?},{},{x:?},{v:?}", j + 1));
+            }
+            last = time;
+            if !self.is_wanted {
+                break;
+            }
+        }
+        let end = until.filter(|_| self.is_wanted).unwrap_or(last);
+        engine.advance(end)?;
+        Ok(end)
     }
 }
 
@@ -88,186 +221,35 @@ impl Job {
             true => format!("{number_cell}{status},"),
             false => number_cell.clone(),
         };
-        let mut rows = Rows {
-            first_cells: cells("ok"),
-            block: String::new(),
-            none_yet: true,
-            wanted: true,
-            sender,
-        };
+        let (first_cells, block) = (cells("ok"), String::new());
+        let mut run =
+            Run { job: self, first_cells, block, is_silent: true, is_wanted: true, sender };
         // With many scenarios each note names the one that it is about.
         let name = number.map_or(name.into(), |number| format!("{name}, line {number}"));
         let of_line = number.map_or(String::new(), |_| format!("{name}: "));
-        let (ran, notes) = self.trace(&name, text, &mut rows);
+        let (ran, notes) = run.trace(&name, text);
         let commas = ",".repeat(self.columns().matches(',').count() + 1);
         let failure = match ran {
             Ok(()) => None,
             Err(failure) if self.args.keep_going => {
-                rows.first_cells = cells(if failure.code == 1 { "stopped" } else { "refused" });
-                rows.row(format_args!("{commas}"));
+                run.first_cells = cells(if failure.code == 1 { "stopped" } else { "refused" });
+                run.row(format_args!("{commas}"));
                 Some(Part::FailedLine(failure.message))
             }
             Err(failure) => Some(Part::Failed(failure)),
         };
-        if self.args.keep_going && rows.none_yet {
-            rows.row(format_args!("{commas}"));
+        if self.args.keep_going && run.is_silent {
+            run.row(format_args!("{commas}"));
         }
-        // A run that is refused at its start prints nothing, and one that is stopped its rows.
-        if !rows.block.is_empty() || failure.is_none() {
-            rows.hand_on();
+        // A run that is refused at its start prints nothing, and one that is stopped its run.
+        if !run.block.is_empty() || failure.is_none() {
+            run.hand_on();
         }
         for part in notes.into_iter().map(|note| Part::Note(of_line.clone() + &note)).chain(failure)
         {
             // Nobody waits for it if the program is ending.
-            let _ = rows.sender.send(part);
+            let _ = run.sender.send(part);
         }
-    }
-
-    /// Runs the scenario of a text; returns how that went, and what is to be noted.
-    fn trace(&self, name: &str, text: &str, rows: &mut Rows) -> (Result<(), Failure>, Vec<String>) {
-        let scenario = match Scenario::from_json(text) {
-            Ok(scenario) => scenario,
-            Err(error) => return (Err(in_file(name, error)), Vec::new()),
-        };
-        let start = self.start.clone().unwrap_or_else(|| State::from_scenario(&scenario));
-        let ran = if self.args.method == MethodName::Certified {
-            self.by_engine(&scenario, &start, rows)
-        } else {
-            self.by_method(&scenario, &start, rows).map(|cost| (cost, None))
-        };
-        let mut notes = ran.as_ref().map_or(Vec::new(), |(cost, _)| doubts(cost));
-        let width = rounding::gap_error(&scenario);
-        let closed = matches!(self.args.method, MethodName::Certified | MethodName::Sampled);
-        let began = matches!(ran, Ok(_) | Err(Error::Work { .. }));
-        if closed && began && width > rounding::REPORTED * scenario.spacing {
-            notes.push(format!(
-                "rounding of large amplitudes may move each impact at closing speed v by {width:.1e}/v, \
-                 and errors grow from impact to impact"
-            ));
-        }
-        let ran = ran.map_err(|error| {
-            let field = error.field().unwrap_or_default();
-            let of_state = ["time", "positions", "velocities"].iter().any(|f| field.starts_with(f));
-            match &self.args.from {
-                Some(path) if of_state => in_file(&format!("--from: {}", path.display()), error),
-                _ => in_file(name, error),
-            }
-        });
-        let ended = ran.and_then(|(_, state)| match (&self.args.save, state) {
-            (Some(path), Some(state)) => save(path, &state),
-            _ => Ok(()),
-        });
-        (ended, notes)
-    }
-
-    fn note_time(&self, time: f64) {
-        self.latest.store(time.to_bits(), Relaxed);
-    }
-
-    fn by_method(
-        &self,
-        scenario: &Scenario,
-        start: &State,
-        rows: &mut Rows,
-    ) -> Result<Cost, Error> {
-        let mut left = self.args.max_impacts.unwrap_or(u64::MAX);
-        let until = if left == 0 { start.time } else { self.args.until.unwrap_or_default() };
-        let method = self.args.method.with_setting(self.setting, 0.0);
-        method.run(Task { scenario, start, until }, &mut |Impact { time, gap, closing_speed }| {
-            self.note_time(time);
-            if left > 0 {
-                rows.row(format_args!("{time:?},{gap},{closing_speed:?}"));
-                left -= 1;
-            }
-            left > 0 && rows.wanted
-        })
-    }
-
-    /// Prints events, or states at given times; returns the state at the end.
-    fn by_engine(
-        &self,
-        scenario: &Scenario,
-        start: &State,
-        rows: &mut Rows,
-    ) -> Result<(Cost, Option<State>), Error> {
-        let mut engine = Engine::from_state(scenario, start)?;
-        let end = match &self.args.at {
-            Some(times) => self.states(times, scenario.forcing_frequency, &mut engine, rows)?,
-            None => self.events(&mut engine, rows)?,
-        };
-        let Counters { impacts, simultaneous, undecided, .. } = engine.counters();
-        let first_graze = engine.first_graze();
-        let cost = Cost { impacts, simultaneous, undecided, first_graze, ..Cost::default() };
-        Ok((cost, self.args.save.as_ref().map(|_| engine.state(end)).transpose()?))
-    }
-
-    /// Prints each impact, or each event; returns the time of the end.
-    fn events(&self, engine: &mut Engine, rows: &mut Rows) -> Result<f64, Error> {
-        let (all, until) = (self.args.events, self.args.until.unwrap_or_default());
-        let mut left = self.args.max_impacts.unwrap_or(u64::MAX);
-        if left == 0 {
-            return Ok(engine.time());
-        }
-        let ended = engine.run(until, |event, _| {
-            let time = event.time();
-            self.note_time(time);
-            let (name, gaps) = match event {
-                Event::Impact(Impact { gap, closing_speed, .. }) => {
-                    let name = if all { "impact," } else { "" };
-                    rows.row(format_args!("{time:?},{name}{gap},{closing_speed:?}"));
-                    left -= 1;
-                    ("", &[][..])
-                }
-                Event::Stick { gaps, .. } => ("stick", &gaps[..]),
-                Event::Release { gaps, .. } => ("release", &gaps[..]),
-                Event::Graze(Graze { gap, .. }) => ("graze", std::slice::from_ref(gap)),
-                _ => ("", &[][..]),
-            };
-            for gap in gaps.iter().filter(|_| all) {
-                rows.row(format_args!("{time:?},{name},{gap},"));
-            }
-            if left > 0 && rows.wanted { Continue(()) } else { Break(()) }
-        })?;
-        Ok(if ended == End::Stopped { engine.time() } else { until })
-    }
-
-    /// Prints time, place and velocity of each mass at given times; returns the time of the end.
-    fn states(
-        &self,
-        times: &Times,
-        frequency: f64,
-        engine: &mut Engine,
-        rows: &mut Rows,
-    ) -> Result<f64, Error> {
-        let (from, until) = (engine.time(), self.args.until);
-        let period = TAU / frequency;
-        let times: Box<dyn Iterator<Item = f64>> = match times {
-            Times::Values(times) => Box::new(times.iter().copied()),
-            Times::OncePerPeriod => {
-                let multiples = (from / period) as u64..;
-                Box::new(multiples.map(|k| k as f64 * period).skip_while(|time| *time < from))
-            }
-        };
-        let (mut last, mut printed) = (from, None);
-        for time in times.take_while(|time| *time <= until.unwrap_or(LATEST)) {
-            // Equal times have one state.
-            if printed.replace(time) == Some(time) {
-                continue;
-            }
-            engine.advance(time)?;
-            self.note_time(time);
-            let state = engine.state(time)?;
-            for (j, (x, v)) in state.positions.iter().zip(&state.velocities).enumerate() {
-                rows.row(format_args!("{time:?},{},{x:?},{v:?}", j + 1));
-            }
-            last = time;
-            if !rows.wanted {
-                break;
-            }
-        }
-        let end = until.filter(|_| rows.wanted).unwrap_or(last);
-        engine.advance(end)?;
-        Ok(end)
     }
 }
 

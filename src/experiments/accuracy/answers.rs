@@ -84,15 +84,10 @@ impl Question {
         let engine = self.engine().filter(|engine| engine.is_enough == Some(true));
         let is_near =
             |answer: &Answer| engine.is_some_and(|engine| answer.seconds < TIE * engine.seconds);
+        let is_open = |answer: &Answer| answer.is_enough.is_none() && is_near(answer);
         match self.rival().zip(engine) {
             Some((rival, engine)) if TIE * rival.seconds <= engine.seconds => name_of(Some(rival)),
-            _ if self
-                .answers
-                .iter()
-                .any(|answer| answer.is_enough.is_none() && is_near(answer)) =>
-            {
-                "undecided".into()
-            }
+            _ if self.answers.iter().any(is_open) => "undecided".into(),
             Some((rival, _)) if is_near(rival) => "tie".into(),
             _ => name_of(cheapest(&self.answers)),
         }
@@ -236,8 +231,7 @@ fn question(
         } else {
             interval(off, chains, result.error)
         };
-        let is_enough = is_within(interval, tolerance);
-        Some(Answer { setting, seconds, chains, result, is_enough })
+        Some(Answer { setting, seconds, chains, result, is_enough: is_within(interval, tolerance) })
     };
     let answers = ensembles[0].0.settings.iter().filter_map(answer).collect();
     Some(Question { id, words, answers })
@@ -279,13 +273,11 @@ fn questions(biases: &Biases, times: Times) -> Vec<Question> {
         let slope = (above - below) / (high - low);
         let (part, height) = ((half - below) / (above - below), low + (half - below) / slope);
         let lower = |[a, b]: [&[f64; 2]; 2]| (1.0 - part) * (a[1] - a[0]) + part * (b[1] - b[0]);
-        let both = pairs[0].iter().zip(&pairs[1]);
-        both.map(|(a, b)| lower([a, b]) / slope / height).collect()
+        pairs[0].iter().zip(&pairs[1]).map(|(a, b)| lower([a, b]) / slope / height).collect()
     }));
     questions
 }
 
-/// Counts the cases in which masses come to rest.
 fn cases_at_rest(trials: &Trials) -> usize {
     let scenes = trials.parameters.scenes.iter().filter(|scene| REST.contains(&&*scene.id));
     scenes.map(|scene| scene.cases.len()).sum()

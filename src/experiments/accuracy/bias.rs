@@ -60,6 +60,5 @@ pub fn run(parameters: &BiasParams, progress: &Progress) -> Result<Biases, Error
     };
     let runs = parameters.means.par_iter().map(methods).collect::<Result<_, Error>>()?;
     let again = parameters.means.par_iter().map(|means| together(means, true));
-    let again = again.collect::<Result<_, Error>>()?;
-    Ok(Biases { runs, again, parameters: parameters.clone() })
+    Ok(Biases { runs, again: again.collect::<Result<_, Error>>()?, parameters: parameters.clone() })
 }

@@ -107,7 +107,6 @@ pub fn scenes() -> Vec<Scene> {
     read.unwrap_or_else(|error| panic!("scenes/scenes.json: {error}; mend it and build again"))
 }
 
-/// How a method runs a case.
 pub type Run<'a> = dyn Fn(Task, Sink) -> Result<Cost, Failure> + 'a;
 
 impl Case {
@@ -144,7 +143,6 @@ impl Case {
         (outcome, slowest)
     }
 
-    /// Returns the outcome of a run with these impacts.
     pub fn judge(&self, impacts: &[Impact]) -> Outcome {
         let counts = |impact: &Impact| impact.time <= self.until && self.expected.counts(impact);
         let relevant = impacts.iter().copied().filter(counts);
@@ -231,8 +229,7 @@ mod tests {
             return Ok(Cost::default());
         }
         Certified.run(task, &mut |Impact { time, gap, closing_speed }| {
-            let closing_speed = closing_speed * (1.0 + by);
-            sink(Impact { time: time + by, gap, closing_speed })
+            sink(Impact { time: time + by, gap, closing_speed: closing_speed * (1.0 + by) })
         })
     }
 

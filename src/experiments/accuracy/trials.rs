@@ -111,8 +111,7 @@ fn outcome(setting: Setting, case: &Case) -> (Outcome, f64) {
     if setting.value > 0.0 && !setting.method.has_tolerance() && steps > MOST_STEPS {
         return (Outcome::GaveUp, 0.0);
     }
-    let method = setting.method();
-    case.run(&|task, sink| method.run(task, sink))
+    case.run(&|task, sink| setting.method().run(task, sink))
 }
 
 #[cfg(test)]

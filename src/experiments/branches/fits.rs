@@ -68,9 +68,9 @@ impl Law {
     /// Estimates a number of the fit to the distances of one length, or returns `None` if a
     /// distance has no error.
     pub fn estimate(self, pairs: &[Pair], number: fn(&Fit) -> f64) -> Option<Estimate> {
-        let weight = |pair: &Pair| pair.estimate(distance).map(|own| 1.0 / (own.error * own.error));
+        let weight = |pair: &Pair| pair.estimate(&distance).map(|d| 1.0 / (d.error * d.error));
         let weights = pairs.iter().map(weight).collect::<Option<Vec<f64>>>()?;
-        pairs[0].estimate(|first, without| {
+        pairs[0].estimate(&|first, without| {
             let log = |pair: &Pair| (self.scale)(pair.transient) - (self.scale)(first.transient);
             let point = |(pair, weight)| Some([log(pair), distance(pair, without)?, weight]);
             let points = pairs.iter().zip(weights.iter().copied()).map(point);

@@ -8,7 +8,7 @@ pub mod tables;
 
 pub use pairs::Chains;
 
-use crate::experiments::ensembles::{join_counts, run_unit, unit_rows};
+use crate::experiments::ensembles::{Parts, join_counts, run_unit, unit_rows};
 use crate::experiments::prelude::*;
 
 pub const BRANCHES: Experiment<Vec<Ensemble>, Vec<Chains>, Counts> = Experiment {
@@ -20,15 +20,11 @@ pub const BRANCHES: Experiment<Vec<Ensemble>, Vec<Chains>, Counts> = Experiment 
     tables: tables::make,
 };
 
-fn join(
-    ensembles: &Vec<Ensemble>,
-    parts: Vec<Vec<Counts>>,
-    progress: &Progress,
-) -> Result<Vec<Chains>, Error> {
+fn join(groups: &Vec<Ensemble>, parts: Parts, progress: &Progress) -> Result<Vec<Chains>, Error> {
     progress.check()?;
-    let chains = |(ensemble, counts): (Ensemble, Vec<Counts>)| {
-        let counts = counts.into_iter().map(|counts| counts.distinct).collect();
-        Chains { ensemble, counts }
+    let chains = |(ensemble, counts): (Ensemble, Vec<Counts>)| Chains {
+        ensemble,
+        counts: counts.into_iter().map(|counts| counts.distinct).collect(),
     };
-    Ok(join_counts(ensembles, parts).map(chains).collect())
+    Ok(join_counts(groups, parts).map(chains).collect())
 }

@@ -45,20 +45,19 @@ fn half_heights(lengths: &[&[Pair]]) -> Table {
         .chosen("above_low", SIGMA, LOW, |row| Some(row.0.above.neighbours()?[0]))
         .chosen("above_high", SIGMA, HIGH, |row| Some(row.0.above.neighbours()?[1]))
         .estimate("rest_coarser", SIGMA, COARSER, |row| {
-            row.0.estimate(|pair, without| pair.rest.coarser(without))
+            row.0.estimate(&|pair, without| pair.rest.coarser(without))
         })
         .estimate("above_coarser", SIGMA, COARSER, |row| {
-            row.0.estimate(|pair, without| pair.above.coarser(without))
+            row.0.estimate(&|pair, without| pair.above.coarser(without))
         })
         .computed_by(origin(Branch::coarser), &["rest_coarser", "above_coarser"])
-        .estimate("distance", SIGMA, DISTANCE, |row| row.0.estimate(distance))
-        .estimate("change_of_distance", SIGMA, LATER, |row| row.0.estimate_less(row.1?, distance))
+        .estimate("distance", SIGMA, DISTANCE, |row| row.0.estimate(&distance))
+        .estimate("change_of_distance", SIGMA, LATER, |row| row.0.estimate_less(row.1?, &distance))
         .computed_by(origin(distance), &["distance", "change_of_distance"])
         .done()
 }
 
 fn fits(lengths: &[&[Pair]]) -> Table {
-    const LIMIT: &str = "distance after unlimited time";
     const AMPLITUDE: &str = "fitted distance at the first transient less the limit";
     const MISFIT: &str = "sum of squares of distances less fitted ones, each over its error";
     let laws = Vec::from_iter(lengths.iter().flat_map(|pairs| LAWS.map(|law| (*pairs, law))));
@@ -67,7 +66,7 @@ fn fits(lengths: &[&[Pair]]) -> Table {
         .table_computed_by(origin(Law::fit))
         .key("masses", "1", |row| row.0[0].masses as f64)
         .text_key("law", |row| row.1.name.into())
-        .estimate("limit", SIGMA, LIMIT, |row| {
+        .estimate("limit", SIGMA, "distance after unlimited time", |row| {
             estimate(row, |fit| fit.limit).filter(|_| row.1.limited)
         })
         .estimate("amplitude", SIGMA, AMPLITUDE, |row| estimate(row, |fit| fit.amplitude))
@@ -89,21 +88,20 @@ fn compared_lengths(lengths: &[&[Pair]]) -> Table {
         .key("transient", TIME, |(short, _)| short.transient)
         .estimate("from_rest", SIGMA, LESS, |(short, long)| short.estimate_less(long, FROM_REST))
         .estimate("from_above", SIGMA, LESS, |(short, long)| short.estimate_less(long, FROM_ABOVE))
-        .estimate("distance", SIGMA, LESS, |(short, long)| short.estimate_less(long, distance))
+        .estimate("distance", SIGMA, LESS, |(short, long)| short.estimate_less(long, &distance))
         .done()
 }
 
 fn excess(pair: &Pair, sigma: f64) -> Option<Estimate> {
-    pair.estimate(|pair, without| {
+    pair.estimate(&|pair, without| {
         Some(pair.above.share(sigma, without)? - pair.rest.share(sigma, without)?)
     })
 }
 
 fn shares(pairs: &[Pair]) -> Table {
     const SHARE: &str = "share of all gaps with an impact";
-    const EXCESS: &str = "share from above less that from rest";
     let share = |pair: &Pair, branch: fn(&Pair) -> &Branch, sigma: f64| {
-        pair.estimate(|pair, without| branch(pair).share(sigma, without))
+        pair.estimate(&|pair, without| branch(pair).share(sigma, without))
     };
     let mut rows: Vec<(&Pair, f64)> = Vec::new();
     for pair in pairs {
@@ -119,7 +117,7 @@ fn shares(pairs: &[Pair]) -> Table {
         .key("sigma", SIGMA, |(_, sigma)| *sigma)
         .estimate("from_rest", "1", SHARE, |row| share(row.0, |pair| &pair.rest, row.1))
         .estimate("from_above", "1", SHARE, |row| share(row.0, |pair| &pair.above, row.1))
-        .estimate("excess", "1", EXCESS, |row| excess(row.0, row.1))
+        .estimate("excess", "1", "share from above less that from rest", |row| excess(row.0, row.1))
         .computed_by(origin(excess), &["excess"])
         .done()
 }

@@ -1,7 +1,7 @@
 //! Compares the counts of circuits with the enumeration of small graphs: Secs. 3, 5 and 9.
 
 use crate::experiments::theory::basics::{Cases, cases};
-use crate::experiments::theory::census::{Census, LONGEST, counted, enumerated};
+use crate::experiments::theory::census::{LONGEST, counted, enumerated};
 use impact_circuits::counting::{paths, phi};
 use impact_circuits::graph::{Circuit, Graph};
 use impact_circuits::higher_order::{
@@ -14,22 +14,21 @@ pub(super) fn impact_types() -> Cases {
     cases((1..=20).map(|masses| {
         let graph = Graph::of_chain(masses);
         let at_wall = |&v: &usize| graph.label(v).starts_with('L') || graph.label(v).ends_with('R');
-        let walls = (0..graph.vertices()).filter(at_wall).count();
-        graph.vertices() == masses + 1 && walls == 2
+        graph.vertices() == masses + 1 && (0..graph.vertices()).filter(at_wall).count() == 2
     }))
 }
 
 /// Compares Eq. (6) with the rotations of simple circuits.
-pub(super) fn eq6(census: &Census) -> Cases {
+pub(super) fn eq6() -> Cases {
     cases(enumerated().filter(|&(n, k)| k <= n).map(|(n, k)| {
         // A path is a simple circuit with one of its k vertices as the first: N paths in all.
-        let all_paths = counted(census, n, k, &[]) * k as u128;
+        let all_paths = counted(n, k, &[]) * k as u128;
         paths(n, k).map(|each| each * n as u128) == Some(all_paths)
     }))
 }
 
-pub(super) fn eq7(census: &Census) -> Cases {
-    let agrees = |(n, k)| phi(n, k) == Some(counted(census, n, k, &[]));
+pub(super) fn eq7() -> Cases {
+    let agrees = |(n, k)| phi(n, k) == Some(counted(n, k, &[]));
     cases(enumerated().filter(|&(n, k)| k <= n).map(agrees))
 }
 
@@ -55,10 +54,10 @@ pub(super) fn eq29() -> Cases {
     }))
 }
 
-pub(super) fn eq30_times_n(census: &Census) -> Cases {
+pub(super) fn eq30_times_n() -> Cases {
     cases(enumerated().filter(|&(n, k)| k >= 3 && k <= n + 1).map(|(n, k)| {
         let times_n = doubled_as_printed(n, k).map(|printed| printed * n as f64);
-        times_n == Some(counted(census, n, k, &[1]) as f64)
+        times_n == Some(counted(n, k, &[1]) as f64)
     }))
 }
 
@@ -75,12 +74,12 @@ pub(super) fn eq32() -> Cases {
 }
 
 /// Compares Eq. (38) from a k on with all five classes; from k = 3 on Eq. (37) is in its range.
-pub(super) fn eq38(census: &Census, from: usize) -> Cases {
+pub(super) fn eq38(from: usize) -> Cases {
     let lengths = |(n, longest): (usize, usize)| {
         (from..=n).take_while(move |k| k + 3 <= longest).map(move |k| (n, k))
     };
     cases((1..).zip(LONGEST).flat_map(lengths).map(|(n, k)| {
-        let counted = CLASSES.map(|one| counted(census, n, k + one.excess(), one.repeats) as f64);
+        let counted = CLASSES.map(|one| counted(n, k + one.excess(), one.repeats) as f64);
         let printed = CLASSES.map(|one| (one.printed)(n, k + one.excess()));
         printed.into_iter().sum::<Option<f64>>() == Some(counted.into_iter().sum())
     }))
@@ -99,10 +98,10 @@ pub(super) struct ClassRange {
 }
 
 /// Compares the printed formula of each class with the enumeration.
-pub(super) fn class_ranges(census: &Census) -> Vec<ClassRange> {
+pub(super) fn class_ranges() -> Vec<ClassRange> {
     let range = |class: &Class| {
         let agrees = |&(n, k): &(usize, usize)| {
-            (class.printed)(n, k) == Some(counted(census, n, k, class.repeats) as f64)
+            (class.printed)(n, k) == Some(counted(n, k, class.repeats) as f64)
         };
         let possible: Vec<(usize, usize)> =
             enumerated().filter(|&(n, k)| class.different(k).is_some_and(|d| d <= n)).collect();
@@ -113,7 +112,7 @@ pub(super) fn class_ranges(census: &Census) -> Vec<ClassRange> {
             right_from: below + 1,
             cases: cases(possible.iter().filter(|size| size.1 > below).map(agrees)),
             formula_below: (class.printed)(3, below),
-            counted_below: counted(census, 3, below, class.repeats),
+            counted_below: counted(3, below, class.repeats),
         }
     };
     CLASSES[1..].iter().map(range).collect()

@@ -63,8 +63,7 @@ pub(super) fn slopes() -> Cases {
 pub(super) fn monotone() -> Cases {
     let from = expect_known(jump::p_jump(Simple, VERTICES)).bracket[1];
     let p = |i: i32| (from + (1.0 - from) * f64::from(i) / 1000.0).min(1.0);
-    let modes: Vec<usize> =
-        [1].into_iter().chain((0..=1000).map(|i| simple(p(i)).k_star())).collect();
+    let modes = Vec::from_iter([1].into_iter().chain((0..=1000).map(|i| simple(p(i)).k_star())));
     cases(modes.windows(2).map(|w| w[1] >= w[0]))
 }
 

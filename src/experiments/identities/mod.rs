@@ -6,14 +6,12 @@ pub(crate) mod jump;
 pub(crate) mod relation;
 
 use crate::experiments::theory::basics::*;
-use crate::experiments::theory::census::CENSUS;
 
 pub fn tables() -> Vec<Table> {
-    let census = &*CENSUS;
     let rows: [(&str, Cases); 16] = [
         ("sec3_impact_types", circuits::impact_types()),
-        ("sec5_eq6", circuits::eq6(census)),
-        ("sec5_eq7", circuits::eq7(census)),
+        ("sec5_eq6", circuits::eq6()),
+        ("sec5_eq7", circuits::eq7()),
         ("sec6_like_simulation", jump::mean_rises()),
         ("sec7_eq11", jump::eq11()),
         ("sec7_eq16_17", jump::slopes()),
@@ -23,10 +21,10 @@ pub fn tables() -> Vec<Table> {
         ("sec7_extrema", jump::extrema()),
         ("sec7_monotone", jump::monotone()),
         ("sec9_eq29", circuits::eq29()),
-        ("sec9_eq30", circuits::eq30_times_n(census)),
+        ("sec9_eq30", circuits::eq30_times_n()),
         ("sec9_eq32", circuits::eq32()),
-        ("sec9_eq38", circuits::eq38(census, 1)),
-        ("sec9_eq38_in_range", circuits::eq38(census, 3)),
+        ("sec9_eq38", circuits::eq38(1)),
+        ("sec9_eq38_in_range", circuits::eq38(3)),
     ];
     let cases = Table::builder("theory.cases", &rows, |_| 0)
         .text_key("statement", |(id, _)| (*id).into())
@@ -44,7 +42,7 @@ pub fn tables() -> Vec<Table> {
         .text_key("statement", |(id, _)| (*id).into())
         .real("largest", "1", 1, "largest difference", |(_, largest)| *largest)
         .done();
-    let ranges = Table::builder("theory.class_ranges", &circuits::class_ranges(census), |_| 0)
+    let ranges = Table::builder("theory.class_ranges", &circuits::class_ranges(), |_| 0)
         .table_computed_by(origin(circuits::class_ranges))
         .key("equation", "1", |one| one.equation)
         .count("right_from", "the length from which on it is right", |one| one.right_from as u64)

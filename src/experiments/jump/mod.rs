@@ -7,6 +7,7 @@ mod tables;
 
 pub use run::Jumps;
 
+use crate::experiments::ensembles::{run_unit, unit_rows};
 use crate::experiments::prelude::*;
 
 pub const MODE_JUMP: Experiment<Vec<Ensemble>, Jumps, Counts> = Experiment {
@@ -14,6 +15,6 @@ pub const MODE_JUMP: Experiment<Vec<Ensemble>, Jumps, Counts> = Experiment {
     own: &["src/experiments/jump", "src/experiments/ensembles.rs"],
     reads: &[],
     parameters: params::jump,
-    how: Cut("jump of the mode", run::CUTTING),
+    how: Cut("jump of the mode", Cutting { rows: unit_rows, run_unit, join: run::join }),
     tables: tables::make,
 };

@@ -1,11 +1,8 @@
 //! Counts independent chains at each σ, and finds the jump of the mode in each window.
 
-use crate::experiments::ensembles::{join_counts, run_unit, unit_rows};
+use crate::experiments::ensembles::{Parts, join_counts};
 use crate::experiments::prelude::*;
 use impact_chain::mode_jump::{Histogram, ModeJump, Sample, mode_jump};
-
-pub const CUTTING: Cutting<Vec<Ensemble>, Counts, Jumps> =
-    Cutting { rows: unit_rows, run_unit, join };
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Jumps {
@@ -46,11 +43,7 @@ impl Jumps {
     }
 }
 
-fn join(
-    ensembles: &Vec<Ensemble>,
-    parts: Vec<Vec<Counts>>,
-    progress: &Progress,
-) -> Result<Jumps, Error> {
+pub fn join(ensembles: &Vec<Ensemble>, parts: Parts, progress: &Progress) -> Result<Jumps, Error> {
     let (rings, walls): (Vec<_>, Vec<_>) =
         join_counts(ensembles, parts).partition(|one| one.0.chain.boundary == Boundary::Ring);
     let protocols = ensembles.first().map_or(&[][..], |ensemble| &ensemble.protocols);
@@ -73,7 +66,6 @@ fn join(
     Ok(Jumps { ensembles: ensembles.clone(), windows, ring, widths })
 }
 
-/// Finds the jump of the mode in a window.
 fn window_jump(protocol: Protocol, samples: &[Sample<'_>], gaps: usize) -> WindowJump {
     let histogram = |sample: &Sample<'_>| {
         let mut histogram = vec![0; gaps + 1];

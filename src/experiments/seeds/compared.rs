@@ -29,8 +29,7 @@ pub fn tables(results: &Results, computed: &[Table]) -> Option<Vec<Table>> {
         root_mean_square(&means.collect::<Vec<_>>(), predicted)
     };
     let after = |transient: f64, column| {
-        let row = rise.series(&[("transient", transient)], "transient", column).ok()?;
-        Some(row.first()?.1)
+        Some(rise.series(&[("transient", transient)], "transient", column).ok()?.first()?.1)
     };
     let column = |name| theory.curve(&[], "sigma", name).ok();
     let (simple, rest) = (column("simple")?, column("rest")?);

@@ -46,8 +46,7 @@ impl Prediction {
     pub fn half_height(&self, parameters: &SeedsParams, which: usize) -> Option<Estimate> {
         let half = 0.5 * parameters.chain.gaps() as f64;
         jackknife(GROUPS, |left_out| {
-            let means =
-                self.means[left_out.unwrap_or(GROUPS)].iter().map(|means| Some(means[which]));
+            let means = self.means[left_out.unwrap_or(GROUPS)].iter().map(|both| Some(both[which]));
             last_rise(&parameters.sigmas, &means.collect::<Vec<_>>(), half)
         })
     }

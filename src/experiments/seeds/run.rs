@@ -21,14 +21,12 @@ pub struct Seeds {
 
 impl Seeds {
     pub fn new(parameters: SeedsParams, rows: Vec<Part>) -> Seeds {
-        let predicted = predictions(&parameters, &sums(&parameters, &rows));
-        Seeds { parameters, rows, predicted }
+        Seeds { predicted: predictions(&parameters, &sums(&parameters, &rows)), parameters, rows }
     }
 }
 
 pub fn run(parameters: &SeedsParams, progress: &Progress) -> Result<Seeds, Error> {
-    let chains = parameters.sigmas.len() * parameters.realisations;
-    let stage = progress.stage("seeds", chains as u64);
+    let stage = progress.stage("seeds", (parameters.sigmas.len() * parameters.realisations) as u64);
     let rows = parameters.sigmas.iter().map(|&sigma| {
         let one = |index| trace(parameters, sigma, index, progress);
         run_each(&stage, progress, 0..parameters.realisations as u64, one)
@@ -143,8 +141,7 @@ mod tests {
         let (chain, sigma) = (Chain { masses: 5, ..Chain::default() }, 0.25);
         let mut normals = NormalPairs::new("test of seeds, whole chains", Seed(1), 0);
         let mut whole = || loop {
-            let forcing: Vec<[f64; 2]> =
-                (0..5).map(|_| normals.pair().map(|x| sigma * x)).collect();
+            let forcing = Vec::from_iter((0..5).map(|_| normals.pair().map(|x| sigma * x)));
             if let [seed] = closing(&chain, &forcing)[..] {
                 return (forcing, seed);
             }

@@ -8,16 +8,11 @@ pub(crate) use impact_numerics::roots;
 use literate::table::Building;
 use literate::value::Origin;
 
-/// Returns the value of a formula, which exists for the numbers of the paper.
-///
-/// # Panics
-///
-/// If it does not.
+/// Returns the value of a formula; panics if it has none for the numbers of the paper.
 pub(crate) fn expect_known<T>(result: Result<T, impact_circuits::Error>) -> T {
     result.expect("the theory exists for the paper's N and p")
 }
 
-/// Begins a table with one row.
 pub(crate) fn one_row(name: &'static str, item: Origin) -> Building<'static, ()> {
     Table::builder(name, &[()], |()| 0).table_computed_by(item)
 }
@@ -37,7 +32,5 @@ pub(crate) type Cases = [u64; 2];
 
 /// Counts the cases in which two sides of a statement were compared, and those that do not agree.
 pub(crate) fn cases(agree: impl IntoIterator<Item = bool>) -> Cases {
-    agree
-        .into_iter()
-        .fold([0, 0], |[compared, failed], agrees| [compared + 1, failed + u64::from(!agrees)])
+    agree.into_iter().fold([0, 0], |[all, failed], agrees| [all + 1, failed + u64::from(!agrees)])
 }

@@ -4,14 +4,13 @@ use impact_circuits::graph::Graph;
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-/// Number of primitive circuits by (N, length, class), found by enumeration.
-pub(crate) type Census = BTreeMap<(usize, usize, Vec<usize>), u128>;
-
 /// Longest circuits that are enumerated on N = 1, 2, … vertices.
 pub(crate) const LONGEST: [usize; 6] = [6, 10, 8, 7, 6, 6];
 
-/// The circuits of all small graphs.
-pub(crate) static CENSUS: LazyLock<Census> = LazyLock::new(|| {
+/// Numbers of primitive circuits by (N, length, class).
+type Census = BTreeMap<(usize, usize, Vec<usize>), u128>;
+
+static CENSUS: LazyLock<Census> = LazyLock::new(|| {
     let mut census = Census::new();
     for (n, longest) in (1..).zip(LONGEST) {
         for circuit in Graph::of_chain(n - 1).circuits(longest) {
@@ -26,7 +25,6 @@ pub(crate) fn enumerated() -> impl Iterator<Item = (usize, usize)> {
     (1..).zip(LONGEST).flat_map(|(n, longest)| (1..=longest).map(move |k| (n, k)))
 }
 
-/// Returns the number of circuits of a length and class on n vertices.
-pub(crate) fn counted(census: &Census, n: usize, k: usize, repeats: &[usize]) -> u128 {
-    census.get(&(n, k, repeats.to_vec())).copied().unwrap_or(0)
+pub(crate) fn counted(n: usize, k: usize, repeats: &[usize]) -> u128 {
+    CENSUS.get(&(n, k, repeats.to_vec())).copied().unwrap_or(0)
 }

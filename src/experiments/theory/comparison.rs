@@ -2,7 +2,7 @@
 
 use crate::experiments::prelude::*;
 use crate::experiments::sweep;
-use impact_chain::rise::{Mean, RisePoint};
+use impact_chain::rise::Mean;
 
 /// From here on σ is called large (ours).
 pub(crate) const LARGE_SIGMA: f64 = 0.2;

@@ -1,7 +1,6 @@
 //! Counts circuits: Secs. 3 and 5, Fig. 7.
 
 use super::basics::*;
-use crate::params::GRAPH_MASSES;
 use impact_circuits::graph::Graph;
 use impact_circuits::{commuting, counting};
 use std::f64::consts::LN_10;
@@ -51,8 +50,7 @@ pub(super) fn lengths() -> Table {
 pub(super) fn commuting_circuits() -> Table {
     let [circuits, classes] = commuting::simple_classes(ENUMERATED).map(|count| count as u64);
     let by_eq7: u128 = (1..=ENUMERATED).filter_map(|k| counting::phi(ENUMERATED, k)).sum();
-    let leap = expect_known(p_jump(Simple, VERTICES));
-    let mean = commuting::mean_without_orders(VERTICES, leap.p);
+    let mean = commuting::mean_without_orders(VERTICES, expect_known(p_jump(Simple, VERTICES)).p);
     one_row("theory.commuting", origin(commuting::simple_classes))
         .count("gaps", "gaps of a chain", |()| ENUMERATED as u64)
         .count("circuits", "simple circuits, each cyclic order of impacts once", |()| circuits)

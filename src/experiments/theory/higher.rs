@@ -1,10 +1,9 @@
 //! Computes what circuits that repeat vertices change: Sec. 9, Figs. 13 and 14.
 
 use super::basics::*;
-use super::census::{CENSUS, counted};
+use super::census::counted;
 use super::comparison::interpolate;
 use super::law::{law, means, simple};
-use crate::params::{HIGHER_P, REMARK_P};
 use impact_circuits::higher_order::{CLASSES, SHARED, doubled_as_printed, multiplicity};
 use impact_numerics::double_double::DoubleDouble;
 
@@ -106,16 +105,14 @@ pub(crate) fn overtaken_in_order() -> bool {
 
 /// Returns the share of simple circuits in the distribution of [`by_different`].
 fn simple_by_different(p: f64) -> f64 {
-    let weights = sum(by_different(p, &multiplicities()));
-    f64::from(SHARED as u32) * sum(simple(p)) / weights
+    f64::from(SHARED as u32) * sum(simple(p)) / sum(by_different(p, &multiplicities()))
 }
 
 /// Returns the largest step of k* in the distribution of [`by_different`], on a grid of p in steps
 /// of 1/100 000 up to 0.04.
 fn largest_step() -> u64 {
     // Each k has the same p^k in all its weights.
-    let logs: Vec<f64> =
-        by_different(1.0, &multiplicities()).into_iter().map(pxfm::f_log).collect();
+    let logs = Vec::from_iter(by_different(1.0, &multiplicities()).into_iter().map(pxfm::f_log));
     let top = |i: u32| {
         let log_p = pxfm::f_log(f64::from(i) / 1e5);
         let weights = (1_u32..).zip(&logs).map(|(k, log)| (k, log + f64::from(k) * log_p));
@@ -134,7 +131,7 @@ pub(super) fn higher(curve: &Table, relation: &Table) -> Table {
     const SIMPLE: &str = "simple ones there, a p a different impact";
     const APART: &str = "p at which the means differ most in proportion";
     let eq30 = doubled_as_printed(3, 3);
-    let counted = counted(&CENSUS, 3, 3, &[1]) as u64;
+    let counted = counted(3, 3, &[1]) as u64;
     let jump = |space| expect_known(jump::p_jump(space, VERTICES));
     let (leap, shifted) = (jump(FiveClasses), jump(FiveClassesPrinted).p);
     let [first, _, last] = HIGHER_P;

@@ -60,8 +60,7 @@ pub fn stages() -> [f64; 4] {
 
 /// Returns f_{N,p}(k) on [0, N], four points to a unit of k.
 pub fn f(p: f64) -> Vec<(f64, f64)> {
-    let ks = (0..=VERTICES * 4).map(|i| i as f64 / 4.0);
-    ks.map(|k| (k, jump::f(VERTICES, p, k))).collect()
+    (0..=VERTICES * 4).map(|i| i as f64 / 4.0).map(|k| (k, jump::f(VERTICES, p, k))).collect()
 }
 
 /// Returns the zeros of f_{N,p}; at the double nearest to p_crit both are 1/√p, on whichever side
@@ -94,8 +93,7 @@ pub(crate) fn flat() -> [f64; 2] {
 pub(crate) fn mean_slopes(p: f64) -> [f64; 2] {
     let mean = law(Simple, p).mean();
     let squares = (1..).map(f64::from).map(|k: f64| (k - mean) * (k - mean));
-    let variance: f64 =
-        squares.zip(law(Simple, p).probabilities()).map(|(square, q)| q * square).sum();
+    let variance: f64 = squares.zip(law(Simple, p).probabilities()).map(|(x, q)| q * x).sum();
     let step = 1e-5 * p;
     [variance / p, (law(Simple, p + step).mean() - law(Simple, p - step).mean()) / (2.0 * step)]
 }

@@ -1,7 +1,6 @@
 //! Computes the distribution of the number of different impacts: Sec. 6, Figs. 8 and 9.
 
 use super::basics::*;
-use crate::params::DISTRIBUTION_P;
 
 pub(crate) fn law(space: SampleSpace, p: f64) -> Law {
     expect_known(Law::new(space, VERTICES, p))

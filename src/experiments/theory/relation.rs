@@ -95,8 +95,7 @@ pub(super) fn relation() -> Table {
     const ALONE: &str = "σ at which a quarter of the gaps close by themselves";
     let crit = expect_known(p_crit(VERTICES));
     let jumps = [(Simple, VERTICES), (Simple, VERTICES + 1), (FiveClasses, VERTICES)];
-    let [jump, walls, higher] =
-        jumps.map(|(space, vertices)| expect_known(p_jump(space, vertices)).p);
+    let [jump, walls, higher] = jumps.map(|(space, n)| expect_known(p_jump(space, n)).p);
     one_row("theory.relation", origin(reaches))
         .real("sigma_crit", SIGMA, 4, "σ at which p is p_crit", |()| reaches(p_of, crit))
         .real("sigma_jump", SIGMA, 4, "σ at which p is p_jump", |()| reaches(p_of, jump))
