@@ -33,24 +33,19 @@ struct Part<'a> {
 
 /// Makes the whole report in memory. What is wrong with the prose of all documents is reported at
 /// once: first what Tera says, then what can be read and resolved, then what can be written.
-pub fn assemble(input: &Input<'_>) -> Result<Files, Error> {
-    let (mut values, mut filler, filled) = fill(input)?;
-    let used: BTreeSet<String> =
-        filled.iter().flat_map(|filled| mark::values(&filled.text)).map(|(id, ..)| id).collect();
-    values.keep_cells(used.iter().map(String::as_str));
-    values.shorten(&input.project.sources);
-
-    let declared = filler.declared.clone();
-    let read_parts = || parts(input, &filled, &values, &declared);
-    let tables: Vec<&Table> = values.tables().collect();
-    check_files(&tables, input.figures)?;
-    let tables = tables.par_iter().map(|table| data(&DataFile::from_table(table)));
+pub fn assemble(mut filler: Filler, input: &Input<'_>) -> Result<Files, Error> {
+    let tables: Vec<&Table> = input.values.tables().collect();
+    let data_of_tables = tables.par_iter().map(|table| data(&DataFile::from_table(table)));
     let figure = |figure: &Figure| files_of(figure, input.edition.license);
     let figures = input.figures.par_iter().flat_map_iter(figure);
-    let data_and_figures = || tables.chain(figures).collect::<Files>();
-    let check_code = || coded::check(input, &declared);
-    let (read_parts, (mut files, hard_coded)) =
-        rayon::join(read_parts, || rayon::join(data_and_figures, check_code));
+    let data_and_figures = || data_of_tables.chain(figures).collect::<Files>();
+    let (filled, mut files) = rayon::join(|| fill(input, &mut filler), data_and_figures);
+    let (values, filled) = filled?;
+    check_files(&tables, input.figures)?;
+
+    let declared = &filler.declared.clone();
+    let read_parts = || parts(input, &filled, &values, declared);
+    let (read_parts, hard_coded) = rayon::join(read_parts, || coded::check(input, declared));
     all_in_order(hard_coded)?;
     let (parts, labels) = read_parts?;
     let cover = input.edition.cover.and_then(|cover| input.figure(cover));
@@ -76,13 +71,14 @@ pub fn assemble(input: &Input<'_>) -> Result<Files, Error> {
     Ok(files)
 }
 
-/// Fills the prose of each document; returns also the values, with the scorecard among them.
-fn fill(input: &Input<'_>) -> Result<(ValueRegistry, Filler, Vec<Filled>), Error> {
+/// Fills the prose of each document; returns also the values, with the scorecard and the cells that
+/// the prose shows among them.
+fn fill(input: &Input<'_>, filler: &mut Filler) -> Result<(ValueRegistry, Vec<Filled>), Error> {
     let mut values = input.values.clone();
     let (printed, relations): (Vec<Check>, Vec<Check>) =
         input.claims.iter().cloned().partition(|claim| claim.kind.is_printed());
     values.extend(scorecard(&printed))?;
-    let mut filler = Filler::new(input.templates, &values)?;
+    filler.insert_values(&values);
     for (name, checks) in [("claims", printed), ("relations", relations)] {
         filler.insert(name, &checks.iter().map(to_row).collect::<Vec<_>>());
     }
@@ -100,7 +96,11 @@ fn fill(input: &Input<'_>) -> Result<(ValueRegistry, Filler, Vec<Filled>), Error
         }
     }
     all_in_order(errors)?;
-    Ok((values, filler, filled))
+    let used: BTreeSet<String> =
+        filled.iter().flat_map(|filled| mark::values(&filled.text)).map(|(id, ..)| id).collect();
+    values.keep_cells(used.iter().map(String::as_str));
+    values.shorten(&input.project.sources);
+    Ok((values, filled))
 }
 
 /// Fails if there are errors, with each of them once, in the order of their places.
@@ -217,7 +217,10 @@ fn write_documents(
         let passages = search::passages(blocks, document.name);
         (print, html::write(blocks, *document, input), markdown::write(blocks), passages)
     };
-    let written: Vec<_> = parts.par_iter().with_max_len(1).map(write).collect();
+    let written = || parts.par_iter().with_max_len(1).map(write).collect::<Vec<_>>();
+    let (written, (index, points)) = rayon::join(written, || {
+        rayon::join(|| html::shared::data_index(files, edition), || points_of(input.figures))
+    });
     let (mut opened, mut texts) = (BTreeSet::new(), Vec::new());
     for (Part { document, places, .. }, written) in parts.iter().zip(written) {
         let (print, (page, values), mut markdown, passages) = match written {
@@ -244,16 +247,10 @@ fn write_documents(
         opened.extend(values);
         texts.push(serde_json::json!([document.page, document.name, passages]));
     }
-    filler.insert("page", &html::shared::data_index(files, edition));
+    filler.insert("page", &index);
     files.insert("data/index.html".into(), filler.fill("data.html")?.into_bytes());
     let texts = format!("TEXTS = {};\n", serde_json::Value::from(texts));
     files.insert("search.js".into(), texts.into_bytes());
-    // What the figures show, for readers who point at it, if it is not too long.
-    let points = input.figures.iter().map(|figure| {
-        let short = figure.data.iter().filter(|file| file.rows.len() < 2000);
-        (figure.id.as_str(), short.map(DataFile::to_csv).collect::<Vec<_>>())
-    });
-    let points = serde_json::json!(points.collect::<BTreeMap<_, _>>());
     files.insert("points.js".into(), format!("POINTS = {points};\n").into_bytes());
     for name in ["report.css", "report.js"] {
         files.insert(name.into(), input.templates.text(name)?.as_bytes().to_vec());
@@ -262,6 +259,15 @@ fn write_documents(
         files.insert(LAB.into(), lab.as_bytes().to_vec());
     }
     Ok(opened)
+}
+
+/// Returns what the figures show, for readers who point at it, if it is not too long.
+fn points_of(figures: &[Figure]) -> serde_json::Value {
+    let points = figures.iter().map(|figure| {
+        let short = figure.data.iter().filter(|file| file.rows.len() < 2000);
+        (figure.id.as_str(), short.map(DataFile::to_csv).collect::<Vec<_>>())
+    });
+    serde_json::json!(points.collect::<BTreeMap<_, _>>())
 }
 
 /// Returns a figure's picture for a dark page, in the colours of the style sheet, if it has any.

@@ -25,19 +25,12 @@ pub struct Filler {
 }
 
 impl Filler {
-    /// Sets Tera up with all `.md`, `.tex` and `.html` files, and with values: `v.name` and
-    /// `group.name` are marks, `raw.name` and `raw.group.name` plain numbers. Cells of tables are
-    /// `table["row"].column`, their keys `keys.table.key` and `keys.table.rows`.
-    pub fn new(templates: &Templates, values: &ValueRegistry) -> Result<Self, Error> {
+    /// Sets Tera up with all `.md`, `.tex` and `.html` files.
+    pub fn new(templates: &Templates) -> Result<Self, Error> {
         let declared = Declared::read(templates.text("literals.toml")?)
             .map_err(|error| Error::Template(templates.place(&error.to_string())))?;
-        // Tables for figures alone are long, and no template needs them.
-        let named = |table: &&Table| templates.iter().any(|(_, text)| text.contains(table.name()));
-        let tables: Vec<&Table> = values.tables().filter(named).collect();
-        let cells = tables.iter().copied().flat_map(Table::cells);
-        let empty = values.iter().chain(cells).filter(|value| value.number == Number::None);
         let mut tera = Tera::new();
-        register(&mut tera, empty.map(|value| value.id.clone()).collect());
+        register(&mut tera);
         let delimiters = Delimiters {
             block_start: "<%".into(),
             block_end: "%>".into(),
@@ -56,15 +49,32 @@ impl Filler {
         let set = tera.set_delimiters(delimiters);
         tera.autoescape_on(Vec::<&str>::new());
         let sources = templates.iter().filter_map(source);
-        let parse = || set.and_then(|()| tera.add_raw_templates(sources));
-        let (names, added) = rayon::join(|| context_names(values, &tables), parse);
-        let mut context = Context::new();
-        for (group, names) in names.as_object().into_iter().flatten() {
-            context.insert(group.clone(), names);
-        }
-        let filler = Filler { tera, templates: templates.clone(), declared, context, names };
+        let added = set.and_then(|()| tera.add_raw_templates(sources));
+        let (templates, context) = (templates.clone(), Context::new());
+        let filler = Filler { tera, templates, declared, context, names: Json::Null };
         added.map_err(|error| filler.translate(&error))?;
         Ok(filler)
+    }
+
+    /// Adds values: `v.name` and `group.name` are marks, `raw.name` and `raw.group.name` plain
+    /// numbers. Cells of tables are `table["row"].column`, their keys `keys.table.key` and
+    /// `keys.table.rows`.
+    pub fn insert_values(&mut self, values: &ValueRegistry) {
+        // Tables for figures alone are long, and no template needs them.
+        let templates: Vec<&str> = self
+            .tera
+            .get_template_names()
+            .filter_map(|path| self.templates.text(path).ok())
+            .collect();
+        let named = |table: &&Table| templates.iter().any(|text| text.contains(table.name()));
+        let tables: Vec<&Table> = values.tables().filter(named).collect();
+        let cells = tables.iter().copied().flat_map(Table::cells);
+        let empty = values.iter().chain(cells).filter(|value| value.number == Number::None);
+        register_otherwise(&mut self.tera, empty.map(|value| value.id.clone()).collect());
+        self.names = context_names(values, &tables);
+        for (group, names) in self.names.as_object().into_iter().flatten() {
+            self.context.insert(group.clone(), names);
+        }
     }
 
     /// Adds a name that is no value: the rows of the claims, the list of figures.
@@ -324,8 +334,18 @@ fn insert_at(tree: &mut Json, path: &[&str], value: Json) {
     *path.iter().fold(tree, |tree, part| &mut tree[*part]) = value;
 }
 
-/// Registers the filters and functions that the manual lists; the values `empty` have no number.
-fn register(tera: &mut Tera, empty: BTreeSet<String>) {
+/// Registers the filter `otherwise`; the values `empty` have no number.
+fn register_otherwise(tera: &mut Tera, empty: BTreeSet<String>) {
+    tera.register_filter("otherwise", move |mark: &str, arguments: Kwargs, _: &State| {
+        let words: String = arguments.must_get("words")?;
+        let is_empty = |(id, ..): (String, _, _)| empty.contains(&id);
+        Ok::<_, tera::Error>(if mark::values(mark).any(is_empty) { words } else { mark.into() })
+    });
+}
+
+/// Registers the filters and functions that the manual lists.
+fn register(tera: &mut Tera) {
+    register_otherwise(tera, BTreeSet::new());
     let with = |mark: &str, word: &str| {
         let problem =
             || tera::Error::message(format!("`{word}` is a filter for values, as v.name"));
@@ -337,11 +357,6 @@ fn register(tera: &mut Tera, empty: BTreeSet<String>) {
             Ok(digits @ 1..=17) => with(mark, &format!("significant{digits}")),
             _ => Err(tera::Error::message("`significant` needs 1 to 17: significant(digits=2)")),
         }
-    });
-    tera.register_filter("otherwise", move |mark: &str, arguments: Kwargs, _: &State| {
-        let words: String = arguments.must_get("words")?;
-        let is_empty = |(id, ..): (String, _, _)| empty.contains(&id);
-        Ok::<_, tera::Error>(if mark::values(mark).any(is_empty) { words } else { mark.into() })
     });
     tera.register_function("literal", |arguments: Kwargs, _: &State| {
         let literal: String = arguments.must_get("text")?;
