@@ -82,7 +82,6 @@ fn is_number_word(word: &str) -> bool {
 
 /// Returns the hard-coded numbers in a part of a text, with their offsets; marks are skipped.
 pub fn find_numbers(text: &str, part: Range<usize>, declared: &Declared) -> Vec<(usize, String)> {
-    let is_word = |c: char| c.is_alphanumeric() || c == '_';
     let (mut numbers, mut offset) = (Vec::new(), part.start);
     // The rest of a word that began before this part was checked there.
     if text[..offset].ends_with(is_word) {
@@ -95,7 +94,7 @@ pub fn find_numbers(text: &str, part: Range<usize>, declared: &Declared) -> Vec<
         offset += match c {
             _ if is_literal => rest.find(ends_literal).unwrap_or(rest.len()),
             OPEN => rest.find(CLOSE).unwrap_or(rest.len()),
-            c if is_word(c) => rest.find(|c| !is_word(c)).unwrap_or(rest.len()),
+            c if is_word(c) => word_length(rest),
             c => c.len_utf8(),
         };
         let word = &text[start..offset];
@@ -116,6 +115,23 @@ pub fn find_numbers(text: &str, part: Range<usize>, declared: &Declared) -> Vec<
         }
     }
     numbers
+}
+
+fn is_word(c: char) -> bool {
+    c.is_alphanumeric() || c == '_'
+}
+
+/// Returns the length of the word that a text begins with, at once for one of ASCII.
+fn word_length(text: &str) -> usize {
+    let bytes = text.as_bytes();
+    let mut length = 0;
+    while length < bytes.len() && (bytes[length].is_ascii_alphanumeric() || bytes[length] == b'_') {
+        length += 1;
+    }
+    if bytes.get(length).is_none_or(u8::is_ascii) {
+        return length;
+    }
+    text.find(|c| !is_word(c)).unwrap_or(text.len())
 }
 
 /// Returns whether a character ends what a backslash before a number makes literal: `Python \3.11`.
