@@ -5,7 +5,7 @@ use super::card::{Cards, link_to_line, links};
 use super::claims::{scorecard, to_row};
 use super::document::{self, Block, Inline, visit};
 use super::edition::Document;
-use super::error::{Error, Thing};
+use super::error::{Error, Thing, fault};
 use super::filled::{Filled, Places};
 use super::filler::Filler;
 use super::folder::{self, Files, SUMS, is_generated};
@@ -16,7 +16,7 @@ use super::lint::Declared;
 use super::mark;
 use super::parse::Parsed;
 use super::values::ValueRegistry;
-use super::{coded, html, latex, ledger, markdown, parse, search};
+use super::{coded, html, latex, ledger, markdown, parse, search, tex};
 use crate::claims::Check;
 use crate::figures::Figure;
 use crate::input::{Place, one_line};
@@ -59,7 +59,7 @@ pub fn assemble(input: &Input<'_>) -> Result<Files, Error> {
     let ledger = ledger_of(input, &parts, &labels);
     let jsons = [serde_json::to_string_pretty(&values), serde_json::to_string_pretty(&ledger)];
     for (name, json) in ["values.json", "ledger.json"].into_iter().zip(jsons) {
-        let json = json.map_err(|error| Error::Template(format!("{name}: {error}")))? + "\n";
+        let json = json.map_err(|error| Error::Message(format!("{name}: {error}")))? + "\n";
         files.insert(name.into(), json.into_bytes());
     }
     let mut errors = Vec::new();
@@ -104,11 +104,10 @@ fn fill(input: &Input<'_>) -> Result<(ValueRegistry, Filler, Vec<Filled>), Error
 }
 
 /// Fails if there are errors, with each of them once, in the order of their places.
-fn all_in_order(errors: Vec<Error>) -> Result<(), Error> {
-    let mut errors: Vec<Error> = errors.into_iter().flat_map(Error::into_list).collect();
+fn all_in_order(mut errors: Vec<Error>) -> Result<(), Error> {
     errors.sort_by(|a, b| a.place().cmp(&b.place()));
     errors.dedup_by_key(|error| error.to_string());
-    Error::check(errors)
+    if errors.is_empty() { Ok(()) } else { Err(Error::Several(errors)) }
 }
 
 /// Reads all documents into trees, with their figures, numbers and references. Returns all errors.
@@ -128,15 +127,14 @@ fn parts<'a>(
     for ((document, filled), parsed) in input.edition.documents.iter().zip(filled).zip(parsed) {
         let Parsed { mut blocks, places, errors: more } = parsed;
         errors.extend(more);
-        if let Some(error) = document::title(&blocks).err().filter(|_| !is_broken) {
+        if !is_broken && document::title(&blocks).is_none() {
+            let error = fault("a report begins with its title, `# Words`");
             errors.push(error.with_place(filled.place(0)));
         }
-        let (figures, more) = illustrate(&mut blocks, input);
-        errors.extend(more.into_iter().map(|error| places.locate(error)));
-        let digits = other_digits(&mut blocks, &input.edition.equations);
-        errors.extend(digits.into_iter().map(|error| places.locate(error)));
-        let numbered = labels.number_all(&mut blocks, *document);
-        errors.extend(numbered.err().map(|error| places.locate(error)));
+        let (figures, mut named) = illustrate(&mut blocks, input);
+        named.extend(other_digits(&mut blocks, &input.edition.equations));
+        named.extend(labels.number_all(&mut blocks, *document));
+        errors.extend(named.into_iter().map(|error| places.locate(error)));
         if !document.repeats {
             placed.extend(figures);
         }
@@ -145,24 +143,28 @@ fn parts<'a>(
     // What a block with an error shows or names is not known.
     if !is_broken {
         let figures = input.figures.iter().filter(|figure| !placed.contains(&figure.id));
-        errors.extend(figures.map(|figure| Error::NotShown(figure.id.clone())));
+        errors.extend(figures.map(|Figure { id, .. }| {
+            let remedy = format!("put ![caption](figures/{id}.svg) into the prose");
+            Error::Rule(format!("figure {id} is not shown; {remedy}"))
+        }));
         for EquationEntry { number, .. } in &input.edition.equations {
             if labels.get(&format!("eq:{number}")).is_none() {
-                errors.push(Error::NoEquation(number.to_string()));
+                let remedy = format!("add \\tag{{{number}}} to it in the prose");
+                errors.push(Error::Message(format!("equation ({number}) is not shown; {remedy}")));
             }
         }
     }
-    errors.extend(labels.add_keys(library.keys()).err());
-    if let Err(error) = labels.add_verdicts(input.claims) {
-        errors.push(parts.iter().fold(error, |error, part| part.places.locate(error)));
-    }
+    errors.extend(labels.add_keys(library.keys()));
+    let verdicts = labels.add_verdicts(input.claims).into_iter();
+    let locate = |error| parts.iter().fold(error, |error, part| part.places.locate(error));
+    errors.extend(verdicts.map(locate));
     // What stands in a block with an error has an id without a number.
     for part in parts.iter().filter(|_| is_broken) {
-        labels.add_missing(part.places.ids(), part.document);
+        labels.add_missing(&part.places, part.document);
     }
     for Part { document, blocks, places } in &mut parts {
-        let resolved = labels.resolve(blocks, *document, &library);
-        errors.extend(resolved.err().map(|error| places.locate(error)));
+        let unresolved = labels.resolve(blocks, *document, &library).into_iter();
+        errors.extend(unresolved.map(|error| places.locate(error)));
     }
     all_in_order(errors)?;
     library.warnings().for_each(|line| (input.warn)(&line));
@@ -180,7 +182,7 @@ fn other_digits(blocks: &mut [Block], equations: &[EquationEntry]) -> Vec<Error>
         {
             let problem =
                 format!("equation ({number}) has the digits {digits}, in the list {other}");
-            errors.push(Error::Named { thing: Thing::Id(format!("eq:{number}")), problem });
+            errors.push(Error::named(Thing::Id, &format!("eq:{number}"), problem));
         }
     });
     errors
@@ -220,14 +222,9 @@ fn write_documents(
     let written: Vec<_> = parts.par_iter().with_max_len(1).map(write).collect();
     let (mut opened, mut texts) = (BTreeSet::new(), Vec::new());
     for (Part { document, places, .. }, written) in parts.iter().zip(written) {
-        let (print, (page, values), mut markdown, passages) = match written {
-            (Ok(print), Ok(page), markdown, passages) => (print, page, markdown, passages),
-            (print, page, ..) => {
-                let faults = print.err().into_iter().chain(page.err());
-                errors.extend(faults.map(|error| places.locate(error)));
-                continue;
-            }
-        };
+        let (print, (page, values, faults), mut markdown, passages) = written;
+        let unknown = tex::unknown(&print.to_string()).into_iter().map(Error::NoLatex);
+        errors.extend(unknown.chain(faults).map(|error| places.locate(error)));
         let byline = edition.byline(*document);
         if !byline.is_empty() {
             let byline = format!("\n\n*{}*\n\n", markdown::escape_text(&byline));
@@ -292,7 +289,7 @@ fn check_files(tables: &[&Table], figures: &[Figure]) -> Result<(), Error> {
         figure.data.iter().map(|file| (file.name.clone(), format!("the figure {}", figure.id)))
     });
     for (name, place) in of_tables.chain(of_figures) {
-        names.add(&name, &place).map_err(|problem| Error::Template(format!("data: {problem}")))?;
+        names.add(&name, &place).map_err(|problem| Error::Message(format!("data: {problem}")))?;
     }
     Ok(())
 }
@@ -318,9 +315,9 @@ fn check_links(part: &Part<'_>, labels: &Labels, files: &Files, input: &Input<'_
     let error = |(to, place): (&str, Place)| {
         let problem =
             format!("a link to {to}: there is no such file or place; correct or remove it");
-        Error::unknown(Thing::Link(to.into()), problem, committed()).with_place(place)
+        Error::unknown(Thing::Link, to, &problem, committed()).with_place(place)
     };
-    part.places.links().filter(|(to, _)| !is_good(to)).map(error).collect()
+    part.places.named(Thing::Link).filter(|(to, _)| !is_good(to)).map(error).collect()
 }
 
 /// Adds alternative texts, data and code to the figures of a document, and makes links to files of
@@ -337,7 +334,7 @@ fn illustrate(blocks: &mut [Block], input: &Input<'_>) -> (Vec<String>, Vec<Erro
             );
             let paths: Vec<String> = input.figures.iter().map(path).collect();
             let paths = paths.iter().map(String::as_str);
-            errors.push(Error::unknown(Thing::Picture(files[0].clone()), problem, paths));
+            errors.push(Error::unknown(Thing::Picture, &files[0], &problem, paths));
             continue;
         };
         *files = figure.names();

@@ -30,7 +30,7 @@ impl Library {
                 _ => "is a brace or a comma missing before?",
             };
             let problem = format!("{}; {remedy}", error.kind);
-            Error::Template(problem).with_place(place(error.span.start))
+            Error::Message(problem).with_place(place(error.span.start))
         })?;
         let (mut references, mut faults) = (Vec::new(), BTreeMap::new());
         let parents = bibtex::parents(&entries);
@@ -53,7 +53,7 @@ impl Library {
     /// Returns what is wrong with the entry that has a key, or `None` if there is no such fault.
     pub fn fault(&self, key: &str) -> Option<Error> {
         let (place, problem) = self.faults.get(key)?;
-        Some(Error::Template(format!("{key} {problem}")).with_place(place.clone()))
+        Some(Error::Message(format!("{key} {problem}")).with_place(place.clone()))
     }
 
     /// Returns a line for each entry that is wrong, for reports that cite none of them.

@@ -57,7 +57,7 @@ pub fn check(input: &Input<'_>, declared: &Declared) -> Vec<Error> {
             let typed = typed.find(|typed| typed.cover(text, *at));
             let place = typed.map(|typed| &*typed.place).or(quoted.map(|(path, _)| *path));
             let place = place.map(|place| format!("{place}: {:?}", one_line(text, 60)));
-            errors.extend(place.map(|place| Error::HardCoded(numeral.clone()).with_place(place)));
+            errors.extend(place.map(|place| Error::hard_coded(numeral).with_place(place)));
         }
     }
     errors

@@ -4,7 +4,6 @@
 //! references, and each format has one writer that walks it. Writers decide on markup only.
 
 use super::edition::Document;
-use super::error::Error;
 use super::tex;
 use crate::print::Printed;
 use pulldown_cmark::Alignment;
@@ -228,12 +227,12 @@ pub fn words_and_maths(words: &str) -> Vec<Inline> {
     inlines
 }
 
-pub fn title(blocks: &[Block]) -> Result<&[Inline], Error> {
-    let title = blocks.iter().find_map(|block| match block {
+/// Returns the title, which the parser and `assemble` see to.
+pub fn title(blocks: &[Block]) -> Option<&[Inline]> {
+    blocks.iter().find_map(|block| match block {
         Block::Heading { level: 1, text, .. } => Some(text.as_slice()),
         _ => None,
-    });
-    title.ok_or_else(|| Error::Markup("a report begins with its title, `# Words`".into()))
+    })
 }
 
 /// Returns whether a block is the heading of the abstract, which extends to the next heading or

@@ -77,7 +77,7 @@ impl Filled {
 pub struct Places<'a> {
     filled: &'a Filled,
     values: &'a ValueRegistry,
-    offsets: Vec<(Thing, usize)>,
+    offsets: Vec<(Thing, String, usize)>,
 }
 
 impl<'a> Places<'a> {
@@ -85,33 +85,20 @@ impl<'a> Places<'a> {
         Places { filled, values, offsets: Vec::new() }
     }
 
-    pub fn add(&mut self, thing: Thing, offset: usize) {
-        self.offsets.push((thing, offset));
+    pub fn add(&mut self, thing: Thing, name: &str, offset: usize) {
+        self.offsets.push((thing, name.into(), offset));
     }
 
-    pub fn links(&self) -> impl Iterator<Item = (&str, Place)> {
-        self.offsets.iter().filter_map(|(thing, offset)| match thing {
-            Thing::Link(to) => Some((to.as_str(), self.filled.place(*offset))),
-            _ => None,
-        })
-    }
-
-    pub fn ids(&self) -> impl Iterator<Item = &str> {
-        self.offsets.iter().filter_map(|(thing, _)| match thing {
-            Thing::Id(id) => Some(id.as_str()),
-            _ => None,
-        })
+    /// Returns the names and the places of all things of one kind.
+    pub fn named(&self, kind: Thing) -> impl Iterator<Item = (&str, Place)> {
+        let of_kind = self.offsets.iter().filter(move |(thing, ..)| *thing == kind);
+        of_kind.map(|(_, name, offset)| (name.as_str(), self.filled.place(*offset)))
     }
 
     /// Adds to an error the place of what it names; of two things with one id this is the second.
     pub fn locate(&self, error: Error) -> Error {
         let offset = match &error {
-            Error::Several(_) => {
-                let errors = error.into_list().into_iter().map(|error| self.locate(error));
-                return Error::Several(errors.collect());
-            }
-            Error::Named { thing, .. } => self.offset(thing),
-            Error::Maths { tex, .. } => self.offset(&Thing::Formula(tex.clone())),
+            Error::Named { thing, name, .. } => self.offset(*thing, name),
             Error::NoLatex(c) => self.filled.text.find(*c).or_else(|| self.value_with(*c)),
             _ => None,
         };
@@ -131,7 +118,8 @@ impl<'a> Places<'a> {
         values.find_map(|(id, _, at)| words(&id)?.contains(c).then_some(at.start))
     }
 
-    fn offset(&self, thing: &Thing) -> Option<usize> {
-        self.offsets.iter().rev().find(|(other, _)| other == thing).map(|(_, offset)| *offset)
+    fn offset(&self, thing: Thing, name: &str) -> Option<usize> {
+        let mut offsets = self.offsets.iter().rev();
+        offsets.find(|(kind, of, _)| *kind == thing && of == name).map(|(.., offset)| *offset)
     }
 }

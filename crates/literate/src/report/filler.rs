@@ -30,7 +30,7 @@ impl Filler {
     /// `table["row"].column`, their keys `keys.table.key` and `keys.table.rows`.
     pub fn new(templates: &Templates, values: &ValueRegistry) -> Result<Self, Error> {
         let declared = Declared::read(templates.text("literals.toml")?)
-            .map_err(|error| Error::Template(templates.place(&error.to_string())))?;
+            .map_err(|error| Error::Message(templates.place(&error.to_string())))?;
         // Tables for figures alone are long, and no template needs them.
         let named = |table: &&Table| templates.iter().any(|(_, text)| text.contains(table.name()));
         let tables: Vec<&Table> = values.tables().filter(named).collect();
@@ -89,7 +89,7 @@ impl Filler {
         let files = document.files(&self.templates);
         if files.is_empty() {
             let problem = "no such file in the templates; write the document";
-            return Err(Error::Template(format!("{}.md: {problem}", document.prose)));
+            return Err(Error::Message(format!("{}.md: {problem}", document.prose)));
         }
         let mut filled = Filled::default();
         for path in files {
@@ -184,7 +184,7 @@ impl Filler {
         let problem =
             signs.iter().fold(problem, |problem, (theirs, ours)| problem.replace(theirs, ours));
         let place: Vec<&str> = place.lines().next().unwrap_or_default().split(':').collect();
-        let [path, line, column] = place[..] else { return Error::Template(problem) };
+        let [path, line, column] = place[..] else { return Error::Message(problem) };
         let template = self.templates.text(path).unwrap_or_default();
         let [line, column] = [line, column].map(|from_one| from_one.parse().unwrap_or(1) - 1);
         // The columns are those of the text with its place marks.
@@ -220,7 +220,7 @@ impl Filler {
 fn fault(templates: &Templates, path: &str, offset: usize, problem: &str) -> Error {
     let template = templates.text(path).unwrap_or_default();
     let place = Place::in_text(templates.place(path), template, offset);
-    Error::Template(problem.into()).with_place(place)
+    Error::Message(problem.into()).with_place(place)
 }
 
 /// A template writes at most this many bytes.

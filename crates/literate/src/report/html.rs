@@ -21,15 +21,15 @@ use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
-/// Returns what the template report.html inserts, and the ids of the cards that the page opens.
+/// Returns what the template report.html inserts, the ids of the cards that the page opens, and the
+/// errors of formulas.
 pub fn write(
     blocks: &[Block],
     here: Document,
     input: &Input<'_>,
-) -> Result<(Json, BTreeSet<String>), Error> {
-    let page = Page::new(input);
-    let (title, edition, sources) =
-        (document::title(blocks)?, input.edition, &input.project.sources);
+) -> (Json, BTreeSet<String>, Vec<Error>) {
+    let (page, edition, sources) = (Page::new(input), input.edition, &input.project.sources);
+    let title = document::title(blocks).unwrap_or_default();
     let (heading, body) = (page.inlines(title), page.blocks(blocks));
     let (mut sections, mut figures) = (Vec::new(), Vec::new());
     for block in blocks {
@@ -86,8 +86,7 @@ pub fn write(
         "body": body,
         "glyphs": outlines(&page.glyphs.borrow()),
     });
-    Error::check(page.errors.into_inner())?;
-    Ok((parts, page.values.into_inner()))
+    (parts, page.values.into_inner(), page.errors.into_inner())
 }
 
 const OPENING: [char; 4] = ['(', '[', '“', '‘'];
@@ -338,7 +337,7 @@ impl<'a> Page<'a> {
         let value = |id: &str, printed: &Printed| self.value(id, printed, '\u{202f}');
         mathml::write(formula, display, value).unwrap_or_else(|problem| {
             // The error names the whole formula, by which its place is found.
-            self.errors.borrow_mut().push(Error::Maths { tex: formula.to_tex(), problem });
+            self.errors.borrow_mut().push(Error::formula(formula.to_tex(), &problem));
             String::new()
         })
     }

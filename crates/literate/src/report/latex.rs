@@ -3,16 +3,15 @@
 use super::document::{self, Block, Formula, Inline, Reference, Table, title};
 use super::document::{goes_on, is_abstract, place, to_inlines, to_plain_text, to_spelt_text};
 use super::edition::{Document, Edition};
-use super::error::Error;
 use super::tex;
 use pulldown_cmark::Alignment;
 use serde_json::{Value as Json, json};
 
-/// Returns what report.tex inserts, or the characters that pdflatex does not know.
-pub fn write(blocks: &[Block], document: Document, edition: &Edition) -> Result<Json, Error> {
-    let title = title(blocks)?;
+/// Returns what report.tex inserts.
+pub fn write(blocks: &[Block], document: Document, edition: &Edition) -> Json {
+    let title = title(blocks).unwrap_or_default();
     let authors = edition.authors.iter().map(|(name, of)| [tex::escape(name), tex::escape(of)]);
-    let print = json!({
+    json!({
         "letter": document.letter,
         "page": document.page,
         "title": inlines(title),
@@ -21,9 +20,7 @@ pub fn write(blocks: &[Block], document: Document, edition: &Edition) -> Result<
         "date": edition.date,
         "body": body(blocks),
         "listings": listings(blocks),
-    });
-    Error::check(tex::unknown(&print.to_string()).into_iter().map(Error::NoLatex).collect())?;
-    Ok(print)
+    })
 }
 
 fn body(blocks: &[Block]) -> String {

@@ -61,5 +61,5 @@ pub fn figures(figures: &[Figure]) -> Vec<FigureEntry> {
 }
 
 pub fn read(json: &str) -> Result<Ledger, Error> {
-    serde_json::from_str(json).map_err(|e| Error::Template(format!("ledger.json: {e}")))
+    serde_json::from_str(json).map_err(|e| Error::Message(format!("ledger.json: {e}")))
 }

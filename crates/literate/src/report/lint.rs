@@ -31,14 +31,14 @@ struct Group {
 
 impl Declared {
     pub fn read(text: &str) -> Result<Self, Error> {
-        let syntax = |error| Error::Template(format!("literals.toml:{}", toml_fault(text, &error)));
+        let syntax = |error| Error::Message(format!("literals.toml:{}", toml_fault(text, &error)));
         let declared: Declared = toml::from_str(text).map_err(syntax)?;
         let phrases = declared.literal.iter().flat_map(|group| &group.phrases);
         let phrases = phrases.map(|phrase| phrase.to_ascii_lowercase() + "\0").collect();
         match declared.literal.iter().find(|group| group.why.trim().is_empty()) {
             None => Ok(Declared { phrases, ..declared }),
             Some(Group { phrases, .. }) => {
-                Err(Error::Template(format!("literals.toml: {phrases:?} have no reason in `why`")))
+                Err(Error::Message(format!("literals.toml: {phrases:?} have no reason in `why`")))
             }
         }
     }

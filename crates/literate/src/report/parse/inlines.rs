@@ -1,12 +1,12 @@
 //! Reads running text: words, formulas, code, references and values.
 
 use super::super::document::{Formula, Inline, Part, in_one_line};
-use super::super::error::{Error, Thing};
+use super::super::error::{Error, Thing, fault};
 use super::super::lint;
 use super::super::mark::{self, Piece, pieces};
 use super::super::tex;
 use super::brackets::bracketed;
-use super::{FIGURE_NOT_ALONE, Reader, UNSUPPORTED_MARKUP, fault, is_block};
+use super::{FIGURE_NOT_ALONE, Reader, UNSUPPORTED_MARKUP, is_block};
 use crate::experiments::Profile;
 use crate::input::one_line;
 use crate::print::{Printed, print};
@@ -80,7 +80,7 @@ impl Reader<'_> {
     fn note_hard_coded(&mut self, numbers: impl IntoIterator<Item = (usize, String)>) {
         for (offset, numeral) in numbers {
             if self.filled.is_typed(offset) {
-                self.note_error(offset, Error::HardCoded(numeral));
+                self.note_error(offset, Error::hard_coded(&numeral));
             }
         }
     }
@@ -114,7 +114,7 @@ impl Reader<'_> {
                 let beside =
                     || lint::conflict(&source[..offset], &source[end..], value, style, is_maths);
                 if let Some(problem) = drops_error.then_some(problem).or_else(beside) {
-                    self.note_error(offset, Error::Template(problem));
+                    self.note_error(offset, Error::Message(problem));
                 }
             }
         }
@@ -150,7 +150,7 @@ impl Reader<'_> {
             Tag::Strong => Inline::Strong(words),
             Tag::Link { dest_url, .. } => {
                 let to = self.to_plain_text(&dest_url)?;
-                self.places.add(Thing::Link(to.clone()), range.start);
+                self.places.add(Thing::Link, &to, range.start);
                 Inline::Link { to, words }
             }
             Tag::Image { .. } => return Err(fault(FIGURE_NOT_ALONE)),
@@ -175,8 +175,8 @@ impl Reader<'_> {
                         [@fig:2; @fig:3]; write a page or section into the sentence";
             return Err(fault(format!("[{reference}]: {problem}")));
         };
-        for id in ids.iter().cloned().chain([ids.join("; ")]) {
-            self.places.add(Thing::Reference(id), offset);
+        for id in ids.iter().chain([&ids.join("; ")]) {
+            self.places.add(Thing::Reference, id, offset);
         }
         Ok(Inline::Unresolved { ids, in_sentence: false })
     }
@@ -203,7 +203,7 @@ impl Reader<'_> {
             self.read_text(before, part.start..cut.start, inlines)?;
             if cut != id_at {
                 let id = source[cut.start + 1..cut.end].to_string();
-                self.places.add(Thing::Reference(id.clone()), cut.start);
+                self.places.add(Thing::Reference, &id, cut.start);
                 inlines.push(Inline::Unresolved { ids: vec![id], in_sentence: true });
             }
             return self.read_text(after, cut.end..part.end, inlines);
@@ -264,10 +264,10 @@ impl Reader<'_> {
         if let Some(problem) =
             has_index.then(|| bare_index.into()).or_else(|| tex::unsupported(&tex))
         {
-            return Err(Error::Maths { tex, problem });
+            return Err(Error::formula(tex, &problem));
         }
         let formula = bracketed(formula.0);
-        self.places.add(Thing::Formula(formula.to_tex()), offset);
+        self.places.add(Thing::Formula, &formula.to_tex(), offset);
         Ok(formula)
     }
 
@@ -306,12 +306,13 @@ impl Reader<'_> {
     }
 
     fn print_value(&self, id: &str, filters: &str) -> Result<Printed, Error> {
-        let unknown = || Error::Template(format!("there is no value {id}"));
+        let unknown = || Error::Message(format!("there is no value {id}"));
         let value = self.values.get(id).ok_or_else(unknown)?;
         // The samples of a quick profile may be too small for any number.
         let is_dash = self.is_in_cell || self.values.profile() == Some(Profile::Quick);
         if value.number == Number::None && !is_dash {
-            return Err(Error::NoNumber(id.into()));
+            let remedy = "say what stands there, by «… | otherwise(words=\"…\")»";
+            return Err(Error::Message(format!("{id} has no number; {remedy}")));
         }
         Ok(print(&value.number, mark::parse_filters(filters)))
     }

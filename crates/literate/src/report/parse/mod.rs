@@ -8,7 +8,7 @@ mod brackets;
 mod inlines;
 
 use super::document::{Block, Inline, Table, to_plain_text};
-use super::error::{Error, Thing};
+use super::error::{Error, Thing, fault};
 use super::filled::{Filled, Places};
 use super::labels::check_kind;
 use super::latex;
@@ -68,10 +68,6 @@ pub fn parse<'a>(
     Parsed { blocks, places: reader.places, errors: reader.errors }
 }
 
-fn fault(problem: impl Into<String>) -> Error {
-    Error::Markup(problem.into())
-}
-
 struct Reader<'a> {
     events: std::iter::Peekable<std::vec::IntoIter<(Event<'a>, Range<usize>)>>,
     filled: &'a Filled,
@@ -115,7 +111,7 @@ impl<'a> Reader<'a> {
     }
 
     fn add_id(&mut self, kind: &str, id: &str, offset: usize) -> Result<(), Error> {
-        self.places.add(Thing::Id(id.into()), offset);
+        self.places.add(Thing::Id, id, offset);
         check_kind(kind, id)
     }
 
@@ -280,7 +276,7 @@ impl<'a> Reader<'a> {
         let files = [path.to_string(), String::new()];
         let id = id.unwrap_or_else(|| format!("fig:{name}"));
         self.add_id("fig", &id, at)?;
-        self.places.add(Thing::Picture(path.into()), at);
+        self.places.add(Thing::Picture, path, at);
         let given = id.trim_start_matches("fig:");
         let digits = given.trim_start_matches(|c: char| c.is_ascii_uppercase());
         let number = if digits.parse::<u32>().is_ok() { given.into() } else { String::new() };
@@ -302,7 +298,7 @@ impl<'a> Reader<'a> {
         match language.split_once(' ') {
             _ if !closed => Err(fault(FENCE)),
             Some((_, item)) => {
-                let listing = self.sources.listing(item).map_err(Error::Markup)?;
+                let listing = self.sources.listing(item).map_err(fault)?;
                 let (id, number, caption) = (String::new(), String::new(), Vec::new());
                 let file = self.sources.file(item).unwrap_or_default().to_string();
                 let (item, code) = (item.to_string(), listing);
