@@ -4,26 +4,55 @@ use super::bibliography::Library;
 use super::card::{Cards, link_to_line, links};
 use super::claims::{scorecard, to_row};
 use super::document::{self, Block, Inline, visit};
-use super::edition::Document;
+use super::edition::{Document, Edition};
 use super::error::{Error, Thing, fault};
 use super::filled::{Filled, Places};
 use super::filler::Filler;
 use super::folder::{self, Files, SUMS, is_generated};
-use super::input::{Input, LAB};
 use super::labels::Labels;
-use super::ledger::{EquationEntry, Ledger};
+use super::ledger::{EquationEntry, FigureEntry, Ledger};
 use super::lint::Declared;
 use super::mark;
 use super::parse::Parsed;
 use super::values::ValueRegistry;
 use super::{coded, html, latex, ledger, markdown, parse, search, tex};
 use crate::claims::Check;
+use crate::experiments::AnyExperiment;
 use crate::figures::Figure;
 use crate::input::{Place, one_line};
 use crate::names::Names;
+use crate::project::Project;
+use crate::prose::Templates;
 use crate::table::{DataFile, Table};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
+
+/// All that a report is made of.
+#[derive(Clone, Copy)]
+pub struct Input<'a> {
+    pub templates: &'a Templates,
+    pub values: &'a ValueRegistry,
+    /// Rows of tables that are not values or claims, by the name that templates use.
+    pub rows: &'a BTreeMap<&'static str, serde_json::Value>,
+    /// Statements and relations.
+    pub claims: &'a [Check],
+    pub figures: &'a [Figure],
+    /// What a page loads when a reader asks it to compute: lab.js.
+    pub lab: Option<&'a str>,
+    /// The path from the report's folder to the project, `../`, or `None` if it lies elsewhere.
+    pub top: Option<&'a str>,
+    pub edition: &'a Edition,
+    pub project: &'a Project,
+    pub experiments: &'a [&'static dyn AnyExperiment],
+    /// Tells what is wrong and stops no report.
+    pub warn: &'a (dyn Fn(&str) + Sync),
+}
+
+impl<'a> Input<'a> {
+    pub(super) fn figure(&self, name: &str) -> Option<&'a Figure> {
+        self.figures.iter().find(|figure| figure.id == name)
+    }
+}
 
 struct Part<'a> {
     document: Document,
@@ -52,11 +81,10 @@ pub fn assemble(input: &Input<'_>) -> Result<Files, Error> {
     let (read_parts, (mut files, hard_coded)) =
         rayon::join(read_parts, || rayon::join(data_and_figures, check_code));
     all_in_order(hard_coded)?;
-    let (parts, labels) = read_parts?;
+    let (parts, labels, ledger) = read_parts?;
     let cover = input.edition.cover.and_then(|cover| input.figure(cover));
     let style = input.templates.text("report.css")?;
     files.extend(cover.and_then(|figure| dark(figure, style)));
-    let ledger = ledger_of(input, &parts, &labels);
     let jsons = [serde_json::to_string_pretty(&values), serde_json::to_string_pretty(&ledger)];
     for (name, json) in ["values.json", "ledger.json"].into_iter().zip(jsons) {
         let json = json.map_err(|error| Error::Message(format!("{name}: {error}")))? + "\n";
@@ -110,17 +138,17 @@ fn all_in_order(mut errors: Vec<Error>) -> Result<(), Error> {
     if errors.is_empty() { Ok(()) } else { Err(Error::Several(errors)) }
 }
 
-/// Reads all documents into trees, with their figures, numbers and references. Returns all errors.
+/// Reads all documents into trees, with their figures, numbers and references, and makes the ledger.
+/// Returns all errors.
 fn parts<'a>(
     input: &Input<'a>,
     filled: &'a [Filled],
     values: &'a ValueRegistry,
     declared: &'a Declared,
-) -> Result<(Vec<Part<'a>>, Labels), Error> {
+) -> Result<(Vec<Part<'a>>, Labels, Ledger), Error> {
     let path = input.templates.place("references.bib");
     let library = Library::read(&path, input.templates.text("references.bib")?)?;
-    let (mut labels, mut placed, mut errors) = (Labels::default(), BTreeSet::new(), Vec::new());
-    let mut parts: Vec<Part<'_>> = Vec::new();
+    let (mut labels, mut parts, mut errors) = (Labels::default(), Vec::new(), Vec::new());
     let parsed = |filled| parse::parse(filled, values, declared, &input.project.sources);
     let parsed = filled.par_iter().with_max_len(1).map(parsed).collect::<Vec<_>>();
     let is_broken = parsed.iter().any(|parsed| !parsed.errors.is_empty());
@@ -131,19 +159,17 @@ fn parts<'a>(
             let error = fault("a report begins with its title, `# Words`");
             errors.push(error.with_place(filled.place(0)));
         }
-        let (figures, mut named) = illustrate(&mut blocks, input);
+        let mut named = illustrate(&mut blocks, input);
         named.extend(other_digits(&mut blocks, &input.edition.equations));
         named.extend(labels.number_all(&mut blocks, *document));
         errors.extend(named.into_iter().map(|error| places.locate(error)));
-        if !document.repeats {
-            placed.extend(figures);
-        }
         parts.push(Part { document: *document, blocks, places });
     }
+    let ledger = ledger_of(input, &parts, &labels);
     // What a block with an error shows or names is not known.
     if !is_broken {
-        let figures = input.figures.iter().filter(|figure| !placed.contains(&figure.id));
-        errors.extend(figures.map(|Figure { id, .. }| {
+        let not_shown = ledger.figures.iter().filter(|figure| figure.label.is_empty());
+        errors.extend(not_shown.map(|FigureEntry { id, .. }| {
             let remedy = format!("put ![caption](figures/{id}.svg) into the prose");
             Error::Rule(format!("figure {id} is not shown; {remedy}"))
         }));
@@ -168,7 +194,7 @@ fn parts<'a>(
     }
     all_in_order(errors)?;
     library.warnings().for_each(|line| (input.warn)(&line));
-    Ok((parts, labels))
+    Ok((parts, labels, ledger))
 }
 
 /// Finds the equations whose digits are not those that the list of equations has.
@@ -256,7 +282,7 @@ fn write_documents(
         files.insert(name.into(), input.templates.text(name)?.as_bytes().to_vec());
     }
     if let Some(lab) = input.lab {
-        files.insert(LAB.into(), lab.as_bytes().to_vec());
+        files.insert("lab.js".into(), lab.as_bytes().to_vec());
     }
     Ok(opened)
 }
@@ -283,13 +309,15 @@ pub fn files_of(figure: &Figure, license: &str) -> Files {
 /// Refuses two files of data with one name.
 fn check_files(tables: &[&Table], figures: &[Figure]) -> Result<(), Error> {
     let mut names = Names::default();
-    let of_tables =
-        tables.iter().map(|table| (DataFile::file_name(table.name()), table.place().to_string()));
-    let of_figures = figures.iter().flat_map(|figure| {
-        figure.data.iter().map(|file| (file.name.clone(), format!("the figure {}", figure.id)))
-    });
-    for (name, place) in of_tables.chain(of_figures) {
-        names.add(&name, &place).map_err(|problem| Error::Message(format!("data: {problem}")))?;
+    let mut add = |name: &str, place: &str| {
+        names.add(name, place).map_err(|problem| Error::Message(format!("data: {problem}")))
+    };
+    for table in tables {
+        add(&DataFile::file_name(table.name()), &table.place())?;
+    }
+    for figure in figures {
+        let place = format!("the figure {}", figure.id);
+        figure.data.iter().try_for_each(|file| add(&file.name, &place))?;
     }
     Ok(())
 }
@@ -321,42 +349,41 @@ fn check_links(part: &Part<'_>, labels: &Labels, files: &Files, input: &Input<'_
 }
 
 /// Adds alternative texts, data and code to the figures of a document, and makes links to files of
-/// the project relative to the folder of the report; returns the names of the figures, and errors.
-fn illustrate(blocks: &mut [Block], input: &Input<'_>) -> (Vec<String>, Vec<Error>) {
-    let (mut names, mut errors) = (Vec::new(), Vec::new());
+/// the project relative to the folder of the report.
+fn illustrate(blocks: &mut [Block], input: &Input<'_>) -> Vec<Error> {
+    let mut errors = Vec::new();
+    let path = |figure: &Figure| format!("figures/{}", figure.names()[0]);
+    let paths: Vec<String> = input.figures.iter().map(path).collect();
     for block in blocks.iter_mut() {
         let Block::Figure { files, alt, origin, .. } = block else { continue };
-        let path = |figure: &Figure| format!("figures/{}", figure.names()[0]);
-        let Some(figure) = input.figures.iter().find(|figure| path(figure) == files[0]) else {
+        let Some(index) = paths.iter().position(|path| *path == files[0]) else {
             let problem = format!(
                 "there is no figure {}; use figures/NAME.svg of a figure of the paper; a file becomes one by Figure::picture",
                 one_line(&files[0], 200)
             );
-            let paths: Vec<String> = input.figures.iter().map(path).collect();
             let paths = paths.iter().map(String::as_str);
             errors.push(Error::unknown(Thing::Picture, &files[0], &problem, paths));
             continue;
         };
+        let figure = &input.figures[index];
         *files = figure.names();
         *alt = figure.description.text.clone();
-        let to_text = |to_text: &str| Inline::Text(to_text.into());
         let data: Vec<String> =
             figure.data.iter().map(|file| format!("data/{}", file.name)).collect();
         let code = input.project.sources.file(&figure.source).map(|file| format!("../{file}"));
         for (name, files) in [("Data: ", data), ("Code: ", code.into_iter().collect())] {
             if !files.is_empty() {
                 let blank = if origin.is_empty() { "" } else { " " };
-                origin.push(to_text(&format!("{blank}{name}")));
+                origin.push(Inline::Text(format!("{blank}{name}")));
                 origin.extend(links(&files));
-                origin.push(to_text("."));
+                origin.push(Inline::Text(".".into()));
             }
         }
-        names.push(figure.id.clone());
     }
     let linked = |inline| match inline {
         Inline::Code(item) if item.contains("::") => link_to_line(&item, input.project),
         other => other,
     };
     document::rewrite(blocks, &mut |inline| document::relative_link(linked(inline), input.top));
-    (names, errors)
+    errors
 }

@@ -1,10 +1,12 @@
-//! Keeps where each piece of the filled prose stands in the templates.
+//! Keeps where each piece of the filled prose stands in the templates, and tells what people typed
+//! or calculated in their tags from what was computed.
 
 use super::error::{Error, Thing};
+use super::lint::{Declared, find_numbers};
 use super::mark::{self, Piece, framed, pieces};
-use super::typed::{self, Names};
 use super::values::ValueRegistry;
 use crate::input::Place;
+use std::collections::BTreeSet;
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Filled {
@@ -12,7 +14,7 @@ pub struct Filled {
     pub text: String,
     templates: Vec<(String, String)>,
     /// Of each template the names of what was typed in its tags.
-    typed: Vec<Names>,
+    typed: Vec<BTreeSet<String>>,
     origins: Vec<Origin>,
 }
 
@@ -33,7 +35,7 @@ impl Filled {
         }
         let template = self.templates.len();
         self.templates.push((path.into(), text.into()));
-        self.typed.push(typed::names(text));
+        self.typed.push(typed_names(text));
         let here = |start, offset, is_tag| Origin { start, template, offset, is_tag };
         self.origins.push(here(self.text.len(), 0, false));
         for piece in pieces(filled) {
@@ -68,8 +70,55 @@ impl Filled {
         let Origin { template, offset, is_tag, .. } = self.origin(offset);
         let inside = self.templates[template].1[offset..].trim_start_matches('«');
         let inside = inside.split('»').next().unwrap_or_default();
-        !is_tag || typed::is_typed(inside, &self.typed[template])
+        !is_tag || is_typed(inside, &self.typed[template])
     }
+}
+
+/// Returns the names that `set` and loops give to what was typed or calculated: `n` in `for n in
+/// [13.5]`.
+fn typed_names(template: &str) -> BTreeSet<String> {
+    let mut typed: BTreeSet<String> = ["raw", "loop", "range"].map(String::from).into();
+    for tag in template.split("<%").skip(1).filter_map(|tag| tag.split("%>").next()) {
+        let tag = tag.trim_matches(|c: char| c == '-' || c.is_whitespace());
+        let (word, rest) = tag.split_once(' ').unwrap_or_default();
+        let given = match word {
+            "set" | "set_global" => rest.split_once('='),
+            "for" => rest.split_once(" in "),
+            _ => None,
+        };
+        if let Some((names, _)) = given.filter(|(_, expression)| is_typed(expression, &typed)) {
+            typed.extend(names.split(',').map(|name| name.trim().into()));
+        }
+    }
+    typed
+}
+
+/// Returns whether an expression is more than the name of something with filters: it begins with a
+/// number, words or a typed name, calculates, or has a number in it. Names of rows may have
+/// numbers.
+fn is_typed(expression: &str, typed: &BTreeSet<String>) -> bool {
+    let expression = expression.trim_start_matches(['-', ' ', '\n']);
+    let is_name = |c: char| c.is_alphanumeric() || c == '_';
+    let name = expression.split(|c| !is_name(c)).next().unwrap_or_default();
+    if name == "literal" {
+        return false;
+    }
+    let (mut bare, mut rows) = (String::new(), 0);
+    for c in expression.chars() {
+        rows -= i32::from(c == ']');
+        bare.extend((rows == 0).then_some(c));
+        rows += i32::from(c == '[');
+    }
+    let mut quoted = false;
+    let has_numbers = bare.split(['"', '\'', '`']).any(|part| {
+        quoted = !quoted;
+        let numbers = find_numbers(part, 0..part.len(), &Declared::default());
+        // `nth(n=1)` chooses.
+        let chooses = |offset: usize| quoted && part[..offset].ends_with(['=', '.']);
+        quoted && part.contains(['*', '/', '+', '%'])
+            || numbers.iter().any(|(offset, _)| !chooses(*offset))
+    });
+    !name.starts_with(char::is_alphabetic) || typed.contains(name) || has_numbers
 }
 
 /// The offsets of the things that errors can name.

@@ -55,7 +55,7 @@ impl Labels {
         keys.filter_map(|key| self.take_place(key, place(key), "references")).collect()
     }
 
-    /// Adds labels to the ids of a document without a label, so that a reference to them is no error.
+    /// Adds labels to ids without a label, so that a reference to them is no error.
     pub fn add_missing(&mut self, places: &Places<'_>, document: Document) {
         for (id, _) in places.named(Thing::Id) {
             let label = Label { number: "?".into(), document };
