@@ -138,8 +138,7 @@ fn all_in_order(mut errors: Vec<Error>) -> Result<(), Error> {
     if errors.is_empty() { Ok(()) } else { Err(Error::Several(errors)) }
 }
 
-/// Reads all documents into trees, with their figures, numbers and references, and makes the ledger.
-/// Returns all errors.
+/// Reads all documents into trees, with figures, numbers and references, and makes the ledger.
 fn parts<'a>(
     input: &Input<'a>,
     filled: &'a [Filled],

@@ -166,6 +166,14 @@ impl From<&str> for Formula {
     }
 }
 
+/// Adds a piece of running text; words that touch are one text.
+pub fn push(inlines: &mut Vec<Inline>, next: Inline) {
+    match (inlines.last_mut(), next) {
+        (Some(Inline::Text(before)), Inline::Text(words)) => before.push_str(&words),
+        (_, next) => inlines.push(next),
+    }
+}
+
 /// Returns a printed value as text, with its formulas, or as a formula where it has a power of ten.
 pub fn to_inlines(printed: &Printed) -> Vec<Inline> {
     let numeral = match printed {

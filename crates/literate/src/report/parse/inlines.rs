@@ -1,6 +1,6 @@
 //! Reads running text: words, formulas, code, references and values.
 
-use super::super::document::{Formula, Inline, Part, in_one_line};
+use super::super::document::{Formula, Inline, Part, in_one_line, push};
 use super::super::error::{Error, Thing, fault};
 use super::super::lint;
 use super::super::mark::{self, Piece, pieces};
@@ -226,10 +226,7 @@ impl Reader<'_> {
                 Piece::Text(words) if words.contains(mark::is_of_mark) => {
                     return Err(fault("a part of the name of a value was cut off; name it whole"));
                 }
-                Piece::Text(words) => match inlines.last_mut() {
-                    Some(Inline::Text(before)) => before.push_str(words),
-                    _ => inlines.push(Inline::Text(words.to_string())),
-                },
+                Piece::Text(words) => push(inlines, Inline::Text(words.to_string())),
                 Piece::Value { id, filters } => {
                     let printed = self.print_value(&id, filters)?;
                     inlines.push(Inline::Value { id, printed });
