@@ -70,7 +70,8 @@ pub fn assemble(input: &Input<'_>) -> Result<Files, Error> {
     values.shorten(&input.project.sources);
 
     let declared = filler.declared.clone();
-    let read_parts = || parts(input, &filled, &values, &declared);
+    let of_parts = Input { values: &values, ..*input };
+    let read_parts = || parts(&of_parts, &filled, &declared);
     let tables: Vec<&Table> = values.tables().collect();
     check_files(&tables, input.figures)?;
     let tables = tables.par_iter().map(|table| data(&DataFile::from_table(table)));
@@ -142,13 +143,12 @@ fn all_in_order(mut errors: Vec<Error>) -> Result<(), Error> {
 fn parts<'a>(
     input: &Input<'a>,
     filled: &'a [Filled],
-    values: &'a ValueRegistry,
     declared: &'a Declared,
 ) -> Result<(Vec<Part<'a>>, Labels, Ledger), Error> {
     let path = input.templates.place("references.bib");
     let library = Library::read(&path, input.templates.text("references.bib")?)?;
     let (mut labels, mut parts, mut errors) = (Labels::default(), Vec::new(), Vec::new());
-    let parsed = |filled| parse::parse(filled, values, declared, &input.project.sources);
+    let parsed = |filled| parse::parse(filled, input, declared);
     let parsed = filled.par_iter().with_max_len(1).map(parsed).collect::<Vec<_>>();
     let is_broken = parsed.iter().any(|parsed| !parsed.errors.is_empty());
     for ((document, filled), parsed) in input.edition.documents.iter().zip(filled).zip(parsed) {

@@ -56,7 +56,7 @@ impl Reader<'_> {
                 self.note_hard_coded(numbers.into_iter().filter(is_digits));
                 Inline::Code(self.to_plain_text(&code)?)
             }
-            Event::InlineMath(_) if self.depth_without_formulas > 0 => {
+            Event::InlineMath(_) if self.depth.without_formulas > 0 => {
                 return Err(fault("GitHub renders no formula in emphasis or a link; move it out"));
             }
             Event::InlineMath(_) if self.filled.text[..range.start].ends_with(forbids_formula) => {
@@ -99,7 +99,7 @@ impl Reader<'_> {
 
     /// Notes what beside a value changes its unit or sign, and digits that drop its error.
     fn check_values(&mut self, range: &Range<usize>, is_maths: bool) {
-        let (filled, values) = (self.filled, self.values);
+        let (filled, values) = (self.filled, self.input.values);
         let source = &filled.text;
         for (id, filters, at) in mark::values(&source[range.clone()]) {
             let (offset, end) = (range.start + at.start, range.start + at.end);
@@ -134,16 +134,15 @@ impl Reader<'_> {
         if matches!(&tag, Tag::Link { title, .. } if !title.is_empty()) {
             return Err(fault("a link has no title, which print cannot show; write it in words"));
         }
-        let hides = matches!(tag, Tag::Emphasis | Tag::Link { .. });
-        (self.spans, self.depth_without_formulas) =
-            (self.spans + 1, self.depth_without_formulas + usize::from(hides));
+        let outer = self.depth;
+        self.depth.spans += 1;
+        self.depth.without_formulas += usize::from(matches!(tag, Tag::Emphasis | Tag::Link { .. }));
         // Readers and writers of nested markup are recursive.
-        if self.spans > 40 {
+        if self.depth.spans > 40 {
             return Err(fault("emphasis is nested too deeply"));
         }
         let words = self.inlines_in_line()?;
-        self.spans -= 1;
-        self.depth_without_formulas -= usize::from(hides);
+        self.depth = outer;
         self.events.next();
         Ok(match tag {
             Tag::Emphasis => Inline::Emphasis(words),
@@ -304,9 +303,9 @@ impl Reader<'_> {
 
     fn print_value(&self, id: &str, filters: &str) -> Result<Printed, Error> {
         let unknown = || Error::Message(format!("there is no value {id}"));
-        let value = self.values.get(id).ok_or_else(unknown)?;
+        let value = self.input.values.get(id).ok_or_else(unknown)?;
         // The samples of a quick profile may be too small for any number.
-        let is_dash = self.is_in_cell || self.values.profile() == Some(Profile::Quick);
+        let is_dash = self.is_in_cell || self.input.values.profile() == Some(Profile::Quick);
         if value.number == Number::None && !is_dash {
             let remedy = "say what stands there, by «… | otherwise(words=\"…\")»";
             return Err(Error::Message(format!("{id} has no number; {remedy}")));

@@ -7,14 +7,13 @@
 mod brackets;
 mod inlines;
 
+use super::assemble::Input;
 use super::document::{Block, Inline, Table, to_plain_text};
 use super::error::{Error, Thing, fault};
 use super::filled::{Filled, Places};
 use super::labels::check_kind;
 use super::latex;
 use super::lint::Declared;
-use super::values::ValueRegistry;
-use crate::source::Sources;
 use pulldown_cmark::{
     Alignment, BrokenLink, CodeBlockKind, CowStr, Event, Options, Parser, Tag, TagEnd,
 };
@@ -28,13 +27,8 @@ pub struct Parsed<'a> {
     pub errors: Vec<Error>,
 }
 
-/// Parses filled Markdown, in which `values` replace marks and `declared` phrases may have numbers.
-pub fn parse<'a>(
-    filled: &'a Filled,
-    values: &'a ValueRegistry,
-    declared: &'a Declared,
-    sources: &'a Sources,
-) -> Parsed<'a> {
+/// Parses filled Markdown, in which values replace marks and `declared` phrases may have numbers.
+pub fn parse<'a>(filled: &'a Filled, input: &Input<'a>, declared: &'a Declared) -> Parsed<'a> {
     let options =
         Options::ENABLE_MATH | Options::ENABLE_TABLES | Options::ENABLE_HEADING_ATTRIBUTES;
     let callback = |link: BrokenLink<'_>| {
@@ -46,18 +40,14 @@ pub fn parse<'a>(
     let mut reader = Reader {
         events: events.into_iter().peekable(),
         filled,
-        values,
+        input: *input,
         declared,
-        sources,
         id_at: 0..0,
         end_of_cut_formula: 0,
-        depth: 0,
-        lists: 0,
-        spans: 0,
-        depth_without_formulas: 0,
+        depth: Depth::default(),
         has_title: false,
         is_in_cell: false,
-        places: Places::new(filled, values),
+        places: Places::new(filled, input.values),
         errors: Vec::new(),
     };
     let blocks = reader.blocks().unwrap_or_default();
@@ -68,23 +58,27 @@ pub fn parse<'a>(
     Parsed { blocks, places: reader.places, errors: reader.errors }
 }
 
+/// Numbers of what stands around the text that is being read.
+#[derive(Clone, Copy, Default)]
+struct Depth {
+    lists: usize,
+    quotes: usize,
+    /// Emphasis and links.
+    spans: usize,
+    /// Those of them in which GitHub renders no formula.
+    without_formulas: usize,
+}
+
 struct Reader<'a> {
     events: std::iter::Peekable<std::vec::IntoIter<(Event<'a>, Range<usize>)>>,
     filled: &'a Filled,
-    values: &'a ValueRegistry,
+    input: Input<'a>,
     declared: &'a Declared,
-    sources: &'a Sources,
     /// Where an id begins and ends that is no text: behind a caption, a picture or an equation.
     id_at: Range<usize>,
     /// Where a formula ends that Markdown has cut; only its first error is reported.
     end_of_cut_formula: usize,
-    /// Number of lists and quotations around what is being read, and of lists alone.
-    depth: usize,
-    lists: usize,
-    /// Number of emphasis and links around it.
-    spans: usize,
-    /// Those of them in which GitHub renders no formula.
-    depth_without_formulas: usize,
+    depth: Depth,
     has_title: bool,
     /// Whether it is a cell of a table, where a dash stands for no number.
     is_in_cell: bool,
@@ -118,7 +112,7 @@ impl<'a> Reader<'a> {
     /// Reads blocks up to the end of what contains them. After an error reading goes on with the
     /// next block, except in lists and quotations.
     fn blocks(&mut self) -> Result<Vec<Block>, Error> {
-        let (mut blocks, within) = (Vec::new(), self.depth > 0);
+        let (mut blocks, within) = (Vec::new(), self.depth.lists + self.depth.quotes > 0);
         while let Some((event, Range { start, end })) = self.events.peek().cloned() {
             if matches!(event, Event::End(_)) {
                 break;
@@ -129,8 +123,7 @@ impl<'a> Reader<'a> {
                 Err(error) if within => return Err(error),
                 Err(error) => {
                     self.errors.push(error);
-                    (self.depth, self.lists, self.spans, self.depth_without_formulas) =
-                        (0, 0, 0, 0);
+                    self.depth = Depth::default();
                     // Cells that Markdown adds to a row are empty and begin at its end.
                     let is_inside = |range: &Range<usize>| range.start < end || range.end <= end;
                     while self.events.next_if(|(_, range)| is_inside(range)).is_some() {}
@@ -140,15 +133,15 @@ impl<'a> Reader<'a> {
         Ok(blocks)
     }
 
-    fn inner(&mut self, is_list: bool) -> Result<Vec<Block>, Error> {
-        let outer = (self.depth, self.lists);
-        (self.depth, self.lists) = (self.depth + 1, self.lists + usize::from(is_list));
-        if self.lists > 4 || self.depth > 6 {
+    /// Reads blocks that stand within one more list or quotation.
+    fn inner(&mut self, depth: Depth) -> Result<Vec<Block>, Error> {
+        if depth.lists > 4 || depth.lists + depth.quotes > 6 {
             let problem = "lists stand at most four deep in LaTeX, and with quotations six deep";
             return Err(fault(problem));
         }
+        let outer = std::mem::replace(&mut self.depth, depth);
         let blocks = self.blocks()?;
-        (self.depth, self.lists) = outer;
+        self.depth = outer;
         Ok(blocks)
     }
 
@@ -189,11 +182,13 @@ impl<'a> Reader<'a> {
                 let number = (!bare).then(String::new);
                 Block::Heading { level, number, id, text }
             }
-            Tag::BlockQuote(_) => Block::Quote(self.inner(false)?),
+            Tag::BlockQuote(_) => {
+                Block::Quote(self.inner(Depth { quotes: self.depth.quotes + 1, ..self.depth })?)
+            }
             Tag::List(start) => {
                 let mut items = Vec::new();
                 while self.begins(|tag| *tag == Tag::Item).is_some() {
-                    items.push(self.inner(true)?);
+                    items.push(self.inner(Depth { lists: self.depth.lists + 1, ..self.depth })?);
                     self.events.next();
                 }
                 Block::List { start, items }
@@ -298,9 +293,9 @@ impl<'a> Reader<'a> {
         match language.split_once(' ') {
             _ if !closed => Err(fault(FENCE)),
             Some((_, item)) => {
-                let listing = self.sources.listing(item).map_err(fault)?;
+                let listing = self.input.project.sources.listing(item).map_err(fault)?;
                 let (id, number, caption) = (String::new(), String::new(), Vec::new());
-                let file = self.sources.file(item).unwrap_or_default().to_string();
+                let file = self.input.project.sources.file(item).unwrap_or_default().to_string();
                 let (item, code) = (item.to_string(), listing);
                 let words = |words: &str| Inline::Text(words.into());
                 let link = Inline::Link { to: format!("../{file}"), words: vec![words(&file)] };

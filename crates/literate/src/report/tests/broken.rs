@@ -50,14 +50,8 @@ fn several_faults_have_their_places() {
 
 #[test]
 fn good_prose_passes() {
-    let good = "Words \\*, \\_, \\$, me@x.org: C#, \\@sec:a, \\#, a * b, a_b, \\[a, b\\], a < b, \\^, \\~, \\-- and\n\n\
-        [data](data), [code](../src/lib.rs), [out](https://x.org/10), `*` and $a_b * c^*$.\n\n\
-        «literal(text=\"2007\", why=\"the year\")», two-sided, `f64`, $k \\ge 3$, $x_{12} = «v.half_height»$\n\n```\n12\n```\n\n\
-        ~~~~\n12\n```\n~~~~~  \n\n> ```\n> 12\n> ```\n\n\
-        $$\n\\begin{aligned} a &= b \\\\\n&+ c \\end{aligned}\n$$\n\n«v.empty | otherwise(words=\"nothing\")», «v.count | otherwise(words=\"nothing\")»\n\n| a |\n|---|\n| «v.empty» |\n\n12) item and [linked][a].\n\n[a]: https://x.org\n\n<# 12 #><% if raw.half_height > 12 %>12<% endif %>\
-        <% for row in keys.toy.none.rows %><% if raw.toy.none[row].x > 1 %>a<% endif %><% endfor %>";
     let none = Table::builder("toy.none", &[0.5; 0], |_| 0).key("x", "1", |x| *x).done();
-    let prose = format!("{PROSE}\n\n{good}\n");
+    let prose = format!("{PROSE}\n\n{}", include_str!("good.md"));
     let report = Given { table: Some(none), ..given(&prose) }.made().unwrap();
     let markdown = file(&report, "report.md");
     assert!(markdown.contains("nothing, 12") && markdown.contains("| – |"), "{markdown}");
