@@ -113,12 +113,12 @@ fn fill(input: &Input<'_>) -> Result<(ValueRegistry, Filler, Vec<Filled>), Error
     values.extend(scorecard(&printed))?;
     let mut filler = Filler::new(input.templates, &values)?;
     for (name, checks) in [("claims", printed), ("relations", relations)] {
-        filler.insert(name, &checks.iter().map(to_row).collect::<Vec<_>>());
+        filler.context.insert(name, &checks.iter().map(to_row).collect::<Vec<_>>());
     }
-    filler.insert("figures", &ledger::figures(input.figures));
-    filler.insert("equations", &input.edition.equations);
+    filler.context.insert("figures", &ledger::figures(input.figures));
+    filler.context.insert("equations", &input.edition.equations);
     for (name, rows) in input.rows {
-        filler.insert(name, rows);
+        filler.context.insert(*name, rows);
     }
     let (mut filled, mut errors) = (Vec::new(), Vec::new());
     let documents = input.edition.documents.par_iter().with_max_len(1);
@@ -257,16 +257,16 @@ fn write_documents(
         }
         files.insert(document.markdown.into(), markdown.into_bytes());
         if let Some(name) = document.print {
-            filler.insert("print", &print);
+            filler.context.insert("print", &print);
             let tex = filler.fill("report.tex")?;
             files.insert(format!("{name}.tex"), tex.into_bytes());
         }
-        filler.insert("page", &page);
+        filler.context.insert("page", &page);
         files.insert(document.page.into(), filler.fill("report.html")?.into_bytes());
         opened.extend(values);
         texts.push(serde_json::json!([document.page, document.name, passages]));
     }
-    filler.insert("page", &html::shared::data_index(files, edition));
+    filler.context.insert("page", &html::shared::data_index(files, edition));
     files.insert("data/index.html".into(), filler.fill("data.html")?.into_bytes());
     let texts = format!("TEXTS = {};\n", serde_json::Value::from(texts));
     files.insert("search.js".into(), texts.into_bytes());

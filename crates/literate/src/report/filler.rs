@@ -19,7 +19,8 @@ pub struct Filler {
     tera: Tera,
     templates: Templates,
     pub declared: Declared,
-    context: Context,
+    /// Values and tables, and what is no value: the rows of the claims, the list of figures.
+    pub context: Context,
     /// Values and tables, as the context has them.
     names: Json,
 }
@@ -67,11 +68,6 @@ impl Filler {
         Ok(filler)
     }
 
-    /// Adds a name that is no value: the rows of the claims, the list of figures.
-    pub fn insert<T: serde::Serialize>(&mut self, name: &'static str, rows: &T) {
-        self.context.insert(name, rows);
-    }
-
     pub fn fill(&self, path: &str) -> Result<String, Error> {
         let mut written = Written(Vec::new());
         let outcome = self.tera.render_to(path, &self.context, &mut written);
@@ -103,17 +99,15 @@ impl Filler {
     /// Refuses names in conditions that do not exist, which Tera takes for *false*, plain numbers
     /// outside of conditions, and filters on values that take plain numbers or words.
     fn conditions(&self, path: &str, template: &str) -> Result<(), Error> {
-        let uses = |group| template.match_indices(group).map(|(offset, _)| offset);
-        for offset in uses("raw.").chain(uses("keys.")) {
-            if template[offset..].starts_with("raw.")
-                && template[..offset].trim_end_matches(['-', ' ']).ends_with('«')
-            {
+        let uses = |group| template.match_indices(group);
+        for (offset, group) in uses("raw.").chain(uses("keys.")) {
+            let (before, name) = template.split_at(offset);
+            if group == "raw." && before.trim_end_matches(['-', ' ']).ends_with('«') {
                 let problem = "a plain number is for conditions; write the value, as «v.name»";
                 return Err(self.fault(path, offset, problem));
             }
-            let begins =
-                !template[..offset].ends_with(|c: char| c.is_alphanumeric() || "._".contains(c));
-            if let Some(problem) = self.describe_missing(&template[offset..]).filter(|_| begins) {
+            let begins = !before.ends_with(|c: char| c.is_alphanumeric() || "._".contains(c));
+            if let Some(problem) = self.describe_missing(name).filter(|_| begins) {
                 return Err(self.fault(path, offset, &problem));
             }
         }
@@ -162,16 +156,12 @@ impl Filler {
 
     /// Lists the plain numbers that an expression names: `raw.a is 0.12, raw.b is 0.11`.
     fn list_numbers(&self, expression: &str) -> String {
-        let mut numbers = Vec::new();
-        for (offset, _) in expression.match_indices("raw.") {
+        let numbers = expression.match_indices("raw.").filter_map(|(offset, _)| {
             let steps = steps(&expression[offset..]);
-            let end = steps.last().map_or(0, |(_, end)| *end);
-            let number = steps.iter().try_fold(&self.names, |here, (key, _)| here.get((*key)?));
-            numbers.extend(
-                number.map(|number| format!("{} is {number}", &expression[offset..offset + end])),
-            );
-        }
-        numbers.join(", ")
+            let number = steps.iter().try_fold(&self.names, |here, (key, _)| here.get((*key)?))?;
+            Some(format!("{} is {number}", &expression[offset..offset + steps.last()?.1]))
+        });
+        numbers.collect::<Vec<_>>().join(", ")
     }
 
     /// Translates an error of Tera, which is a message, an arrow to the place, and the line there.
@@ -195,8 +185,8 @@ impl Filler {
             Piece::Text(template) => template.len(),
             Piece::Value { .. } => 0,
         };
-        let offset =
-            begun + pieces(&before.collect::<String>()).into_iter().map(typed).sum::<usize>();
+        let before = before.collect::<String>();
+        let offset = begun + pieces(&before).into_iter().map(typed).sum::<usize>();
         let Some(tag) = template.get(..offset).and_then(|before| before.rfind('«')) else {
             return self.fault(path, offset, &problem);
         };

@@ -243,8 +243,8 @@ struct Column {
     least: usize,
 }
 
-impl Column {
-    fn new(table: &Table, i: usize, align: Alignment) -> Self {
+fn columns(table: &Table) -> Vec<Column> {
+    let column = |(i, align): (usize, &Alignment)| {
         let rows = table.rows.iter().chain([&table.head]);
         let cells: Vec<String> = rows.map(|row| to_plain_text(&row[i])).collect();
         let width = cells.iter().map(|cell| cell.chars().count()).max().unwrap_or(0).max(3);
@@ -256,21 +256,20 @@ impl Column {
             Alignment::Right => "r",
         };
         Column { letter, width, least: if width <= SHORT { width } else { word + 1 } }
-    }
-}
-
-fn columns(table: &Table) -> Vec<Column> {
-    let columns = table.columns.iter().enumerate();
-    columns.map(|(i, align)| Column::new(table, i, *align)).collect()
+    };
+    table.columns.iter().enumerate().map(column).collect()
 }
 
 /// Returns in which line, of the three, a table fits with gaps that may be halved, or `None` if on
 /// no page.
 pub fn line_of(table: &Table) -> Option<usize> {
     let columns = columns(table);
-    let total: usize = columns.iter().map(|column| column.width + 2).sum();
-    let first = usize::from(total > ACROSS);
+    let first = usize::from(total(&columns) > ACROSS);
     (first..LINES.len()).find(|line| least(&columns, 0.5) <= LINES[*line] as f64)
+}
+
+fn total(columns: &[Column]) -> usize {
+    columns.iter().map(|column| column.width + 2).sum()
 }
 
 /// Returns how narrow columns can be together, with a share of the usual gaps.
@@ -282,8 +281,7 @@ fn least(columns: &[Column], gap: f64) -> f64 {
 fn table(table: &Table) -> String {
     let (columns, place) = (columns(table), line_of(table).unwrap_or(LINES.len() - 1));
     let (across, small, line) = (place > 0, place > 1, LINES[place] as f64);
-    let total: usize = columns.iter().map(|column| column.width + 2).sum();
-    let wraps = total as f64 > line;
+    let wraps = total(&columns) as f64 > line;
     let layout = if wraps {
         shared_layout(&columns, line)
     } else {

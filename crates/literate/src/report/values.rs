@@ -6,10 +6,10 @@ use crate::input::{is_control, one_line};
 use crate::source::Sources;
 use crate::table::{Table, Tables};
 pub(crate) use crate::value::{Digits, Number, Provenance, Value, origin};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct ValueRegistry {
     values: BTreeMap<String, Value>,
@@ -104,12 +104,6 @@ fn check_showable(value: &Value) -> Result<(), Error> {
         }
         None => Ok(()),
     }
-}
-
-pub fn read(json: &str) -> Result<ValueRegistry, Error> {
-    let values = serde_json::from_str(json)
-        .map_err(|error| Error::Message(format!("values.json: {error}")))?;
-    Ok(ValueRegistry { values, ..ValueRegistry::default() })
 }
 
 #[cfg(test)]

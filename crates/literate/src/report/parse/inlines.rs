@@ -99,23 +99,21 @@ impl Reader<'_> {
 
     /// Notes what beside a value changes its unit or sign, and digits that drop its error.
     fn check_values(&mut self, range: &Range<usize>, is_maths: bool) {
-        let (filled, values) = (self.filled, self.input.values);
-        let source = &filled.text;
+        let source = &self.filled.text;
         for (id, filters, at) in mark::values(&source[range.clone()]) {
-            let (offset, end) = (range.start + at.start, range.start + at.end);
+            let Some(value) = self.input.values.get(&id) else { continue };
+            let (before, after) =
+                (&source[..range.start + at.start], &source[range.start + at.end..]);
             let style = mark::parse_filters(filters);
-            if let Some(value) = values.get(&id) {
-                let has_error =
-                    |digits: &Digits| matches!(digits, Digits::Error(_)) && style.digits.is_some();
-                let drops_error =
-                    matches!(&value.number, Number::Real { digits, .. } if has_error(digits));
-                let problem =
-                    format!("«{id}» has a standard error, which `significant` drops; leave it out");
-                let beside =
-                    || lint::conflict(&source[..offset], &source[end..], value, style, is_maths);
-                if let Some(problem) = drops_error.then_some(problem).or_else(beside) {
-                    self.note_error(offset, Error::Message(problem));
-                }
+            let has_error = matches!(value.number, Number::Real { digits: Digits::Error(_), .. });
+            let problem = if has_error && style.digits.is_some() {
+                let problem = "has a standard error, which `significant` drops; leave it out";
+                Some(format!("«{id}» {problem}"))
+            } else {
+                lint::conflict(before, after, value, style, is_maths)
+            };
+            if let Some(problem) = problem {
+                self.note_error(before.len(), Error::Message(problem));
             }
         }
     }
