@@ -93,7 +93,7 @@ pub fn make_report(
     out: &Path,
 ) -> Result<(Files, Vec<Check>), Failure> {
     let Session { templates, progress, .. } = session;
-    Filler::new(templates, &ValueRegistry::default())?;
+    let declared = Filler::new(templates, &ValueRegistry::default())?.declared;
     let published = paper.published(session)?;
     let results = paper.results(&paper.experiments, session)?;
     results.tables()?;
@@ -113,6 +113,7 @@ pub fn make_report(
     let report = assemble(&Input {
         templates,
         values: &values,
+        declared: &declared,
         rows: &rows,
         claims: &checks,
         figures: &figures,

@@ -6,14 +6,14 @@ use super::claims::{scorecard, to_row};
 use super::document::{self, Block, Inline, visit};
 use super::edition::{Document, Edition};
 use super::error::{Error, Thing, fault};
-use super::filled::{Filled, Places};
+use super::filled::Filled;
 use super::filler::Filler;
 use super::folder::{self, Files, SUMS, is_generated};
 use super::labels::Labels;
 use super::ledger::{EquationEntry, FigureEntry, Ledger};
 use super::lint::Declared;
 use super::mark;
-use super::parse::Parsed;
+use super::parse::Part;
 use super::values::ValueRegistry;
 use super::{coded, html, latex, ledger, markdown, parse, search, tex};
 use crate::claims::Check;
@@ -32,6 +32,8 @@ use std::collections::{BTreeMap, BTreeSet};
 pub struct Input<'a> {
     pub templates: &'a Templates,
     pub values: &'a ValueRegistry,
+    /// Phrases that may have numbers.
+    pub declared: &'a Declared,
     /// Rows of tables that are not values or claims, by the name that templates use.
     pub rows: &'a BTreeMap<&'static str, serde_json::Value>,
     /// Statements and relations.
@@ -54,12 +56,6 @@ impl<'a> Input<'a> {
     }
 }
 
-struct Part<'a> {
-    document: Document,
-    blocks: Vec<Block>,
-    places: Places<'a>,
-}
-
 /// Makes the whole report in memory. What is wrong with the prose of all documents is reported at
 /// once: first what Tera says, then what can be read and resolved, then what can be written.
 pub fn assemble(input: &Input<'_>) -> Result<Files, Error> {
@@ -69,18 +65,16 @@ pub fn assemble(input: &Input<'_>) -> Result<Files, Error> {
     values.keep_cells(used.iter().map(String::as_str));
     values.shorten(&input.project.sources);
 
-    let declared = filler.declared.clone();
     let of_parts = Input { values: &values, ..*input };
-    let read_parts = || parts(&of_parts, &filled, &declared);
+    let read_parts = || parts(&of_parts, &filled);
     let tables: Vec<&Table> = values.tables().collect();
     check_files(&tables, input.figures)?;
     let tables = tables.par_iter().map(|table| data(&DataFile::from_table(table)));
     let figure = |figure: &Figure| files_of(figure, input.edition.license);
     let figures = input.figures.par_iter().flat_map_iter(figure);
     let data_and_figures = || tables.chain(figures).collect::<Files>();
-    let check_code = || coded::check(input, &declared);
     let (read_parts, (mut files, hard_coded)) =
-        rayon::join(read_parts, || rayon::join(data_and_figures, check_code));
+        rayon::join(read_parts, || rayon::join(data_and_figures, || coded::check(input)));
     all_in_order(hard_coded)?;
     let (parts, labels, ledger) = read_parts?;
     let cover = input.edition.cover.and_then(|cover| input.figure(cover));
@@ -143,26 +137,24 @@ fn all_in_order(mut errors: Vec<Error>) -> Result<(), Error> {
 fn parts<'a>(
     input: &Input<'a>,
     filled: &'a [Filled],
-    declared: &'a Declared,
 ) -> Result<(Vec<Part<'a>>, Labels, Ledger), Error> {
     let path = input.templates.place("references.bib");
     let library = Library::read(&path, input.templates.text("references.bib")?)?;
-    let (mut labels, mut parts, mut errors) = (Labels::default(), Vec::new(), Vec::new());
-    let parsed = |filled| parse::parse(filled, input, declared);
-    let parsed = filled.par_iter().with_max_len(1).map(parsed).collect::<Vec<_>>();
-    let is_broken = parsed.iter().any(|parsed| !parsed.errors.is_empty());
-    for ((document, filled), parsed) in input.edition.documents.iter().zip(filled).zip(parsed) {
-        let Parsed { mut blocks, places, errors: more } = parsed;
-        errors.extend(more);
-        if !is_broken && document::title(&blocks).is_none() {
+    let (mut labels, mut errors) = (Labels::default(), Vec::new());
+    let read = |(filled, document): (&'a Filled, &Document)| parse::parse(filled, *document, input);
+    let documents = filled.par_iter().zip(&input.edition.documents);
+    let mut parts: Vec<Part<'_>> = documents.with_max_len(1).map(read).collect();
+    let is_broken = parts.iter().any(|part| !part.errors.is_empty());
+    for (Part { document, blocks, places, errors: own }, filled) in parts.iter_mut().zip(filled) {
+        errors.append(own);
+        if !is_broken && document::title(blocks).is_none() {
             let error = fault("a report begins with its title, `# Words`");
             errors.push(error.with_place(filled.place(0)));
         }
-        let mut named = illustrate(&mut blocks, input);
-        named.extend(other_digits(&mut blocks, &input.edition.equations));
-        named.extend(labels.number_all(&mut blocks, *document));
+        let mut named = illustrate(blocks, input);
+        named.extend(other_digits(blocks, &input.edition.equations));
+        named.extend(labels.number_all(blocks, *document));
         errors.extend(named.into_iter().map(|error| places.locate(error)));
-        parts.push(Part { document: *document, blocks, places });
     }
     let ledger = ledger_of(input, &parts, &labels);
     // What a block with an error shows or names is not known.
@@ -187,7 +179,7 @@ fn parts<'a>(
     for part in parts.iter().filter(|_| is_broken) {
         labels.add_missing(&part.places, part.document);
     }
-    for Part { document, blocks, places } in &mut parts {
+    for Part { document, blocks, places, .. } in &mut parts {
         let unresolved = labels.resolve(blocks, *document, &library).into_iter();
         errors.extend(unresolved.map(|error| places.locate(error)));
     }
@@ -347,8 +339,7 @@ fn check_links(part: &Part<'_>, labels: &Labels, files: &Files, input: &Input<'_
     part.places.named(Thing::Link).filter(|(to, _)| !is_good(to)).map(error).collect()
 }
 
-/// Adds alternative texts, data and code to the figures of a document, and makes links to files of
-/// the project relative to the folder of the report.
+/// Adds texts, data and code to figures, and makes links to files of the project relative.
 fn illustrate(blocks: &mut [Block], input: &Input<'_>) -> Vec<Error> {
     let mut errors = Vec::new();
     let path = |figure: &Figure| format!("figures/{}", figure.names()[0]);

@@ -205,8 +205,7 @@ fn enclosed(before: &str, inner: Vec<Inline>, after: &str) -> Vec<Inline> {
     inlines
 }
 
-/// Reads a field into words and formulas, which are none if it is absent; macros other than accents
-/// are refused.
+/// Reads a field, which may be absent; macros other than accents are refused.
 fn read_field(entry: &Entry, name: &str) -> Result<Vec<Inline>, String> {
     let verbatim = entry.get(name).unwrap_or_default().format_verbatim();
     let mut inlines = words_and_maths(verbatim.trim());
@@ -222,8 +221,7 @@ fn read_field(entry: &Entry, name: &str) -> Result<Vec<Inline>, String> {
     Ok(inlines)
 }
 
-/// Sets the quotation marks that a text types as ``…'', `…' or "…"; single and double ones may be
-/// open from before.
+/// Sets the quotation marks typed as ``…'', `…' or "…"; those of either kind may be open before.
 fn with_quotes(words: &str, open: &mut [bool; 2]) -> String {
     let words = words.replace("``", "“").replace("''", "”");
     let ends = |offset: usize| !words[offset + 1..].starts_with(char::is_alphanumeric);
@@ -263,8 +261,7 @@ fn ordinal(edition: Vec<Inline>) -> Vec<Inline> {
     enclosed("", edition, ending)
 }
 
-/// Returns the address at which the work can be read: its DOI in any spelling, its URL, or its
-/// place in arXiv.
+/// Returns where the work can be read: its DOI in any spelling, its URL, or its place in arXiv.
 fn address(entry: &Entry) -> Result<Option<String>, String> {
     // These fields keep their backslashes.
     let verbatim_field = |name| {

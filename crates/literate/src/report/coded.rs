@@ -20,7 +20,7 @@ struct Typed {
 }
 
 /// Refuses hard-coded numbers in what code gives, by the places of its strings.
-pub fn check(input: &Input<'_>, declared: &Declared) -> Vec<Error> {
+pub fn check(input: &Input<'_>) -> Vec<Error> {
     let texts = input.templates.iter().filter(|(path, _)| path.starts_with("claims/"));
     let texts = texts.map(|(path, text)| (input.templates.place(path), text));
     let is_code = |path: &str| path.ends_with(".rs") && !path.contains("/tests");
@@ -28,7 +28,7 @@ pub fn check(input: &Input<'_>, declared: &Declared) -> Vec<Error> {
     let code = code.map(|(path, text)| (path.to_string(), *text));
     let mut numbered = Vec::new();
     for (text, file, with_words) in given(input) {
-        let mut numerals = lint::find_numbers(&text, 0..text.len(), declared);
+        let mut numerals = lint::find_numbers(&text, 0..text.len(), input.declared);
         let is_meant = |numeral: &str| with_words || numeral.starts_with(char::is_numeric);
         numerals.retain(|(at, one)| is_meant(one) && is_number(&text, *at, one));
         if !numerals.is_empty() {
@@ -63,8 +63,7 @@ pub fn check(input: &Input<'_>, declared: &Declared) -> Vec<Error> {
     errors
 }
 
-/// Returns what stands between quotation marks and braces, in strings and elsewhere, with letters
-/// and one of the numbers that are meant.
+/// Returns what stands between quotation marks and braces, with letters and a number that is meant.
 fn typed(path: &str, code: &str, meant: &HashSet<&str>) -> Vec<Typed> {
     let code = code.split("#[cfg(test)]\nmod ").next().unwrap_or_default();
     let wants_words = meant.iter().any(|word| word.starts_with(char::is_alphabetic));

@@ -194,9 +194,8 @@ pub fn to_inlines(printed: &Printed) -> Vec<Inline> {
     }
 }
 
-/// Returns whether words from data are written with formulas, `at $h = 0.3$`: each of their dollar
-/// signs begins one behind a blank or ends one before no letter. Otherwise, as in `^a$|^b$`, they
-/// are signs.
+/// Returns whether words from data have formulas, `at $h = 0.3$`: each of their dollar signs begins
+/// one behind a blank or ends one before no letter. Otherwise, `^a$|^b$`, they are signs.
 pub fn has_formulas(words: &str) -> bool {
     let parts: Vec<&str> = words.split('$').collect();
     let is_formula = |index: usize| {
@@ -243,8 +242,7 @@ pub fn title(blocks: &[Block]) -> Option<&[Inline]> {
     })
 }
 
-/// Returns whether a block is the heading of the abstract, which extends to the next heading or
-/// figure.
+/// Returns whether the abstract begins, which extends to the next heading or figure.
 pub fn is_abstract(block: &Block) -> bool {
     matches!(block, Block::Heading { text, .. } if to_plain_text(text) == "Abstract")
 }
@@ -293,8 +291,7 @@ pub fn place(id: &str) -> String {
     id.chars().map(escaped).collect()
 }
 
-/// Returns whether a sentence continues from one paragraph to the next, with or after a displayed
-/// equation.
+/// Returns whether a sentence continues from a paragraph to the next, over a displayed equation.
 pub fn goes_on(before: &Block, next: &Block) -> bool {
     let (Block::Paragraph(before), Block::Paragraph(next)) = (before, next) else { return false };
     match (before.as_slice(), next.as_slice()) {

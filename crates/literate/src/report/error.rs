@@ -71,8 +71,7 @@ impl Error {
         Error::Named { thing, name: name.into(), problem }
     }
 
-    /// Makes the error of a thing that the prose names and that is not there, with the most similar
-    /// names.
+    /// Makes the error of a thing that is not there, with the most similar names.
     pub(crate) fn unknown<'a>(
         thing: Thing,
         name: &str,

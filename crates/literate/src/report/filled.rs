@@ -74,8 +74,7 @@ impl Filled {
     }
 }
 
-/// Returns the names that `set` and loops give to what was typed or calculated: `n` in `for n in
-/// [13.5]`.
+/// Returns the names for what was typed or calculated: `n` in `for n in [13.5]`.
 fn typed_names(template: &str) -> BTreeSet<String> {
     let mut typed: BTreeSet<String> = ["raw", "loop", "range"].map(String::from).into();
     for tag in template.split("<%").skip(1).filter_map(|tag| tag.split("%>").next()) {
@@ -93,9 +92,8 @@ fn typed_names(template: &str) -> BTreeSet<String> {
     typed
 }
 
-/// Returns whether an expression is more than the name of something with filters: it begins with a
-/// number, words or a typed name, calculates, or has a number in it. Names of rows may have
-/// numbers.
+/// Returns whether an expression is more than a name with filters: it begins with a number, words
+/// or a typed name, calculates, or has a number in it, which names of rows may have.
 fn is_typed(expression: &str, typed: &BTreeSet<String>) -> bool {
     let expression = expression.trim_start_matches(['-', ' ', '\n']);
     let is_name = |c: char| c.is_alphanumeric() || c == '_';

@@ -133,8 +133,7 @@ impl Filler {
     }
 
     /// Describes which part of a name, `table["row"].column`, does not exist, with the most similar
-    /// names, or returns `None` if the name is right or names no value. A computed row may be any
-    /// row.
+    /// names, or returns `None` if the name is right or names no value. A computed row may be any.
     fn describe_missing(&self, expression: &str) -> Option<String> {
         let mut here = &self.names;
         for (depth, (key, end)) in steps(expression).into_iter().enumerate() {
@@ -230,8 +229,7 @@ impl std::io::Write for Written {
     }
 }
 
-/// Splits the name that begins an expression into its keys, each with the offset of its end; a row
-/// that is computed has no key.
+/// Splits the name that begins an expression into keys with their ends; a computed row has no key.
 fn steps(expression: &str) -> Vec<(Option<&str>, usize)> {
     let (mut steps, mut end) = (Vec::new(), 0);
     loop {

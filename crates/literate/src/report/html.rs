@@ -20,8 +20,7 @@ use serde_json::{Value as Json, json};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 
-/// Returns what the template report.html inserts, the ids of the cards that the page opens, and the
-/// errors of formulas.
+/// Returns what report.html inserts, the ids of the cards that the page opens, and errors.
 pub fn write(
     blocks: &[Block],
     here: Document,
@@ -200,8 +199,7 @@ impl<'a> Page<'a> {
         }
     }
 
-    /// Writes a paragraph. HTML lets no equation stand inside a `<p>`: the sentence goes on in the
-    /// next one.
+    /// Writes a paragraph. No equation can stand inside a `<p>`: the sentence goes on in the next.
     fn paragraph(&self, text: &[Inline]) -> String {
         let mut html = String::new();
         let is_display = |inline: &Inline| matches!(inline, Inline::Display { .. });
@@ -217,8 +215,7 @@ impl<'a> Page<'a> {
         html
     }
 
-    /// Writes running text. Browsers break lines before and after a formula: what must stay on its
-    /// line is kept together with it.
+    /// Writes running text. Browsers break lines around a formula, but for what is kept with it.
     fn inlines(&self, list: &[Inline]) -> String {
         // Pieces, and whether each stays with the one before.
         let mut pieces: Vec<(String, bool)> = Vec::new();

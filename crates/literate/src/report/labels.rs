@@ -146,8 +146,7 @@ impl Labels {
         errors
     }
 
-    /// Takes the signs of verdicts for `row:`, `mark:` and `sign:`; refuses a place of a statement
-    /// that does not exist.
+    /// Takes the signs of verdicts; refuses a place of a statement that does not exist.
     pub fn add_verdicts(&mut self, claims: &[Check]) -> Vec<Error> {
         self.signs = claims.iter().map(|claim| (claim.id.clone(), claim.verdict.sign())).collect();
         let ids = self.labels.keys().filter_map(|id| id.strip_prefix("claim:"));

@@ -207,8 +207,7 @@ fn formula_to_latex(formula: &Formula) -> String {
     tex::escape_formula(&formula.to_tex_with(|id, printed| tex::origin_link(id, &printed.to_tex())))
 }
 
-/// Allows long paths and addresses in code to break after `::`, `/`, `\_`, `,` and `]`, and before
-/// `[`.
+/// Allows long paths in code to break after `::`, `/`, `\_`, `,` and `]`, and before `[`.
 fn breakable(code: &str) -> String {
     code.replace("::", "::\\allowbreak{}")
         .replace('/', "/\\allowbreak{}")
@@ -222,8 +221,7 @@ fn address(to: &str) -> String {
     document::address(to).replace('%', r"\%").replace('#', r"\#").replace('&', r"\&")
 }
 
-/// Characters that fit into a line of the page in the size of tables, into one of the page on its
-/// side, and there in small letters.
+/// Characters of a table in a line of the page, of one on its side, and there in small letters.
 const LINES: [usize; 3] = [LINE, LINE * 3 / 2, LINE * 2];
 const LINE: usize = 92;
 
@@ -260,8 +258,7 @@ fn columns(table: &Table) -> Vec<Column> {
     table.columns.iter().enumerate().map(column).collect()
 }
 
-/// Returns in which line, of the three, a table fits with gaps that may be halved, or `None` if on
-/// no page.
+/// Returns in which of the lines a table fits with gaps that may be halved, or `None` if in none.
 pub fn line_of(table: &Table) -> Option<usize> {
     let columns = columns(table);
     let first = usize::from(total(&columns) > ACROSS);

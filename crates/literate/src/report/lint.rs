@@ -133,8 +133,7 @@ pub fn without_backslashes(text: &str) -> String {
 }
 
 /// Returns whether a number behind a backslash belongs to an address, `doi:`, is a year, or is a
-/// version behind a name. It does not if it is a quantity with a unit, or stands behind the first
-/// word of a sentence.
+/// version behind a name (not the first word of a sentence), and no quantity with a unit.
 fn is_name(before: &str, number: &str) -> bool {
     let token = number.split(ends_literal).next().unwrap_or_default();
     let behind = number[token.len()..].split_whitespace().next().unwrap_or_default();
@@ -168,8 +167,7 @@ fn is_word_end(c: char) -> bool {
     !c.is_whitespace() && !"([".contains(c)
 }
 
-/// Describes what stands beside a value and changes its unit or its sign, or returns `None` if
-/// nothing does; formulas have units in `\mathrm`.
+/// Describes what stands beside a value and changes its unit or sign, or returns `None` if nothing.
 pub fn conflict(
     before: &str,
     after: &str,
@@ -269,9 +267,8 @@ fn sides(tex: &str) -> Vec<(String, bool)> {
 
 const EQUALS: [&str; 5] = ["=", "≈", r"\approx", r"\simeq", r"\sim"];
 
-/// Returns a hard-coded number in a formula, or `None` if each number is a part of mathematics. `0`
-/// and `1` alone are allowed, since they are as much words as numbers, and so are fractions with
-/// one digit above.
+/// Returns a hard-coded number in a formula, or `None` if all are mathematics, as `0` and `1` alone
+/// are, and fractions with one digit above.
 pub fn number_in_formula(tex: &str) -> Option<String> {
     let sides = sides(tex);
     let digits = |text: &str| text.chars().filter(char::is_ascii_digit).count();

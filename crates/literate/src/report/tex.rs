@@ -1,5 +1,4 @@
-//! Writes characters for pdflatex, knows the macros that every format supports, and spells formulas
-//! in characters for terminals.
+//! Writes characters for pdflatex, knows the macros of every format, and spells formulas in words.
 //!
 //! GitHub renders mathematics by MathJax 3 without the packages that define macros, or add HTML,
 //! actions and boxes. It refuses a formula that names one of a list of macros, `\operatorname`
@@ -43,8 +42,7 @@ pub fn unknown(tex: &str) -> BTreeSet<char> {
     tex.chars().filter(|c| !c.is_ascii() && !is_known(*c)).collect()
 }
 
-/// Writes the characters of a formula beyond ASCII as macros, so that they may stand in `\text{…}`
-/// too.
+/// Writes the characters of a formula beyond ASCII as macros, which may stand in `\text{…}` too.
 pub fn escape_formula(tex: &str) -> String {
     let named = |c: char| match in_text(c) {
         _ if c.is_ascii() => c.to_string(),
@@ -149,9 +147,8 @@ pub fn unsupported(tex: &str) -> Option<String> {
     })
 }
 
-/// Spells a formula in characters: `p_{\mathrm{crit}}` as `p_crit`, `\sigma^{-3}` as `σ^-3`,
-/// `\frac{1}{2}` as `1/2`, `\sqrt{N+1}` as `√(N+1)`. A name that is not known stands without its
-/// backslash.
+/// Spells a formula in characters: `p_{\mathrm{crit}}` as `p_crit`, `\sqrt{N+1}` as `√(N+1)`. An
+/// unknown name stands without its backslash.
 pub fn spell(tex: &str) -> String {
     let (mut spelt, mut signs) = (String::new(), signs(tex).peekable());
     while signs.peek().is_some() {

@@ -42,8 +42,7 @@ impl ValueRegistry {
         self.tables.values().map(AsRef::as_ref)
     }
 
-    /// Lists the cells with these addresses among the values; all other cells stand in the data
-    /// files alone.
+    /// Lists the cells with these addresses among the values.
     pub(crate) fn keep_cells<'a>(&mut self, named: impl IntoIterator<Item = &'a str>) {
         for address in named {
             if let Some(cell) = self.cell(address).cloned() {

@@ -52,7 +52,7 @@ impl Reader<'_> {
             Event::Code(code) => {
                 let is_digits =
                     |(_, numeral): &(usize, String)| numeral.starts_with(|c: char| c.is_numeric());
-                let numbers = lint::find_numbers(&self.filled.text, range, self.declared);
+                let numbers = lint::find_numbers(&self.filled.text, range, self.input.declared);
                 self.note_hard_coded(numbers.into_iter().filter(is_digits));
                 Inline::Code(self.to_plain_text(&code)?)
             }
@@ -213,7 +213,7 @@ impl Reader<'_> {
             let problem = if self.filled.is_typed(offset) { problem } else { GROUP_AS_VALUE };
             return Err(fault(problem).with_place(self.filled.place(offset)));
         }
-        self.note_hard_coded(lint::find_numbers(source, part.clone(), self.declared));
+        self.note_hard_coded(lint::find_numbers(source, part.clone(), self.input.declared));
         self.check_values(&part, false);
         // A backslash before a backslash is meant.
         let escaped = usize::from(source[..part.start].ends_with('\\') && text.starts_with('\\'));
@@ -265,8 +265,7 @@ impl Reader<'_> {
         Ok(formula)
     }
 
-    /// Reads a displayed equation: cuts `\tag{18}` out of it, or takes the id `{#eq:name}` behind
-    /// it.
+    /// Reads a displayed equation: cuts `\tag{18}` out of it, or takes `{#eq:name}` behind it.
     fn display(&mut self, tex: &str, range: Range<usize>) -> Result<Inline, Error> {
         let behind = &self.filled.text[range.end..];
         let id =
@@ -312,8 +311,7 @@ impl Reader<'_> {
     }
 }
 
-/// Returns whether a formula cannot follow: GitHub renders one only after a space or an opening
-/// bracket.
+/// Returns whether no formula can follow: GitHub renders one after a space or an opening bracket.
 fn forbids_formula(c: char) -> bool {
     c.is_alphanumeric() || ")]$".contains(c) || c == mark::CLOSE
 }

@@ -1,5 +1,4 @@
-//! Reads filled Markdown into the tree of `document`, in one pass, and looks for hard-coded
-//! numbers.
+//! Reads filled Markdown into the tree of `document`, and looks for hard-coded numbers.
 //!
 //! The manual ([`crate::manual`]) lists all markup. Whatever else Markdown reads is refused, and so
 //! is markup that is not closed.
@@ -9,26 +8,27 @@ mod inlines;
 
 use super::assemble::Input;
 use super::document::{Block, Inline, Table, to_plain_text};
+use super::edition::Document;
 use super::error::{Error, Thing, fault};
 use super::filled::{Filled, Places};
 use super::labels::check_kind;
 use super::latex;
-use super::lint::Declared;
 use pulldown_cmark::{
     Alignment, BrokenLink, CodeBlockKind, CowStr, Event, Options, Parser, Tag, TagEnd,
 };
 use std::ops::Range;
 
-#[derive(Debug)]
-pub struct Parsed<'a> {
+/// A document as it is read.
+pub struct Part<'a> {
+    pub document: Document,
     /// The tree, without the blocks that have an error.
     pub blocks: Vec<Block>,
     pub places: Places<'a>,
     pub errors: Vec<Error>,
 }
 
-/// Parses filled Markdown, in which values replace marks and `declared` phrases may have numbers.
-pub fn parse<'a>(filled: &'a Filled, input: &Input<'a>, declared: &'a Declared) -> Parsed<'a> {
+/// Parses the filled Markdown of a document.
+pub fn parse<'a>(filled: &'a Filled, document: Document, input: &Input<'a>) -> Part<'a> {
     let options =
         Options::ENABLE_MATH | Options::ENABLE_TABLES | Options::ENABLE_HEADING_ATTRIBUTES;
     let callback = |link: BrokenLink<'_>| {
@@ -41,7 +41,6 @@ pub fn parse<'a>(filled: &'a Filled, input: &Input<'a>, declared: &'a Declared) 
         events: events.into_iter().peekable(),
         filled,
         input: *input,
-        declared,
         id_at: 0..0,
         end_of_cut_formula: 0,
         depth: Depth::default(),
@@ -55,7 +54,8 @@ pub fn parse<'a>(filled: &'a Filled, input: &Input<'a>, declared: &'a Declared) 
     if let Some((offset, c)) = filled.text.char_indices().find(is_hidden) {
         reader.note_error(offset, Error::NoLatex(c));
     }
-    Parsed { blocks, places: reader.places, errors: reader.errors }
+    let Reader { places, errors, .. } = reader;
+    Part { document, blocks, places, errors }
 }
 
 /// Numbers of what stands around the text that is being read.
@@ -73,7 +73,6 @@ struct Reader<'a> {
     events: std::iter::Peekable<std::vec::IntoIter<(Event<'a>, Range<usize>)>>,
     filled: &'a Filled,
     input: Input<'a>,
-    declared: &'a Declared,
     /// Where an id begins and ends that is no text: behind a caption, a picture or an equation.
     id_at: Range<usize>,
     /// Where a formula ends that Markdown has cut; only its first error is reported.
@@ -225,6 +224,7 @@ impl<'a> Reader<'a> {
                 return Err(fault(UNSUPPORTED_MARKUP));
             };
             *first = first.trim_start_matches(word).to_string();
+            let problem = "a caption must be followed by its table, or have an id {#lst:…} and be followed by its code";
             let mut block = self.block()?;
             match (&mut block, id) {
                 (Block::Table(table), id) if *kind == "tab" => {
@@ -233,17 +233,11 @@ impl<'a> Reader<'a> {
                 (Block::Listing { id: listing_id, caption, .. }, Some(id)) if *kind == "lst" => {
                     (*listing_id, *caption) = (id, inlines);
                 }
-                _ => {
-                    return Err(fault(
-                        "a caption must be followed by its table, or have an id {#lst:…} and be followed by its code",
-                    ));
-                }
+                _ => return Err(fault(problem)),
             }
             return Ok(block);
         }
-        if let [Inline::Unresolved { ids, .. }] = inlines.as_slice()
-            && ids == &["bibliography"]
-        {
+        if matches!(&inlines[..], [Inline::Unresolved { ids, .. }] if *ids == ["bibliography"]) {
             return Ok(Block::Bibliography(Vec::new()));
         }
         if let Some(Inline::Text(first)) = inlines.first_mut()

@@ -96,6 +96,7 @@ impl Given {
         assemble(&Input {
             templates: &Templates::from_files(templates.chain([("references.bib", BIB)])),
             values: &values,
+            declared: &Default::default(),
             rows: &Default::default(),
             claims: &self.claims,
             figures: &self.figures,
