@@ -146,13 +146,9 @@ pub fn refuse_left_out(entry: &Entry, read_fields: &BTreeSet<String>) -> Result<
             || NOT_SHOWN.split_whitespace().any(|known| known == name)
             || PARENTS.contains(&name)
     };
-    match entry.fields.keys().find(|name| !is_known(name)) {
-        Some(name) => {
-            let kind = &entry.entry_type;
-            Err(format!("has the field {name}, which a @{kind} does not show; put it in its note"))
-        }
-        None => Ok(()),
-    }
+    let Some(name) = entry.fields.keys().find(|name| !is_known(name)) else { return Ok(()) };
+    let kind = &entry.entry_type;
+    Err(format!("has the field {name}, which a @{kind} does not show; put it in its note"))
 }
 
 /// Returns the year, or that of a date: `2011`, `2011-03`, `2011-03-01`, or a range with `/`.
