@@ -24,6 +24,7 @@ use crate::names::Names;
 use crate::project::Project;
 use crate::prose::Templates;
 use crate::table::{DataFile, Table};
+use rayon::iter::Either;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -80,10 +81,9 @@ pub fn assemble(input: &Input<'_>) -> Result<Files, Error> {
     let cover = input.edition.cover.and_then(|cover| input.figure(cover));
     let style = input.templates.text("report.css")?;
     files.extend(cover.and_then(|figure| dark(figure, style)));
-    let jsons = [serde_json::to_string_pretty(&values), serde_json::to_string_pretty(&ledger)];
+    let jsons = [serde_json::to_vec_pretty(&values), serde_json::to_vec_pretty(&ledger)];
     for (name, json) in ["values.json", "ledger.json"].into_iter().zip(jsons) {
-        let json = json.map_err(|error| Error::Message(format!("{name}: {error}")))? + "\n";
-        files.insert(name.into(), json.into_bytes());
+        files.insert(name.into(), [json.unwrap_or_default(), b"\n".into()].concat());
     }
     let mut errors = Vec::new();
     let opened = write_documents(input, &parts, &mut filler, &mut files, &mut errors)?;
@@ -114,14 +114,10 @@ fn fill(input: &Input<'_>) -> Result<(ValueRegistry, Filler, Vec<Filled>), Error
     for (name, rows) in input.rows {
         filler.context.insert(*name, rows);
     }
-    let (mut filled, mut errors) = (Vec::new(), Vec::new());
     let documents = input.edition.documents.par_iter().with_max_len(1);
-    for prose in documents.map(|document| filler.prose(document)).collect::<Vec<_>>() {
-        match prose {
-            Ok(prose) => filled.push(prose),
-            Err(error) => errors.push(error),
-        }
-    }
+    let prose = documents.map(|document| filler.prose(document));
+    let (filled, errors): (Vec<Filled>, Vec<Error>) =
+        prose.partition_map(|prose| prose.map_or_else(Either::Right, Either::Left));
     all_in_order(errors)?;
     Ok((values, filler, filled))
 }

@@ -21,11 +21,6 @@ struct Typed {
 
 /// Refuses hard-coded numbers in what code gives, by the places of its strings.
 pub fn check(input: &Input<'_>) -> Vec<Error> {
-    let texts = input.templates.iter().filter(|(path, _)| path.starts_with("claims/"));
-    let texts = texts.map(|(path, text)| (input.templates.place(path), text));
-    let is_code = |path: &str| path.ends_with(".rs") && !path.contains("/tests");
-    let code = input.project.sources.files.iter().filter(|(path, _)| is_code(path));
-    let code = code.map(|(path, text)| (path.to_string(), *text));
     let mut numbered = Vec::new();
     for (text, file, with_words) in given(input) {
         let mut numerals = lint::find_numbers(&text, 0..text.len(), input.declared);
@@ -37,10 +32,14 @@ pub fn check(input: &Input<'_>) -> Vec<Error> {
     }
     let meant = numbered.iter().flat_map(|(.., numerals)| numerals).map(|(_, one)| one.as_str());
     let meant: HashSet<&str> = meant.collect();
+    let texts = input.templates.iter().filter(|(path, _)| path.starts_with("claims/"));
+    let texts = texts.map(|(path, text)| (input.templates.place(path), text));
+    let is_code = |path: &str| path.ends_with(".rs") && !path.contains("/tests");
+    let code = input.project.sources.files.iter().filter(|(path, _)| is_code(path));
+    let code = code.map(|(path, text)| (path.to_string(), *text));
     let files: Vec<(String, &str)> = code.chain(texts).collect();
-    let files = files.par_iter().with_max_len(1);
-    let typed = files.flat_map_iter(|(path, text)| typed(path, text, &meant));
-    let typed: Vec<Typed> = typed.collect();
+    let read = |(path, text): &(String, &str)| typed(path, text, &meant);
+    let typed: Vec<Typed> = files.par_iter().with_max_len(1).flat_map_iter(read).collect();
     let mut by_numeral: HashMap<&str, Vec<&Typed>> = HashMap::new();
     for typed in &typed {
         for numeral in &typed.numerals {

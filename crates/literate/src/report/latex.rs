@@ -107,10 +107,8 @@ fn write_block(block: &Block) -> String {
         }
         Block::Quote(blocks) => format!("\\begin{{quote}}\n{}\\end{{quote}}", body(blocks)),
         Block::Code { code, .. } => {
-            format!(
-                "{{\\small\\begin{{alltt}}\n{}\n\\end{{alltt}}}}",
-                tex::escape_code(code.trim_end())
-            )
+            let code = tex::escape_code(code.trim_end());
+            format!("{{\\small\\begin{{alltt}}\n{code}\n\\end{{alltt}}}}")
         }
         // Listings stand after the text, and paper runs nothing.
         Block::Listing { .. } | Block::Lab { .. } => String::new(),

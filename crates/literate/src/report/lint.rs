@@ -17,30 +17,28 @@ use std::sync::LazyLock;
 pub struct Declared {
     #[serde(default)]
     literal: Vec<Group>,
-    /// All phrases in lower case, each ended by `\0`.
-    #[serde(skip)]
-    phrases: String,
 }
 
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table [[literal]]")]
 struct Group {
     why: String,
+    /// In lower case.
     phrases: Vec<String>,
 }
 
 impl Declared {
     pub fn read(text: &str) -> Result<Self, Error> {
         let syntax = |error| Error::Message(format!("literals.toml:{}", toml_fault(text, &error)));
-        let declared: Declared = toml::from_str(text).map_err(syntax)?;
-        let phrases = declared.literal.iter().flat_map(|group| &group.phrases);
-        let phrases = phrases.map(|phrase| phrase.to_ascii_lowercase() + "\0").collect();
-        match declared.literal.iter().find(|group| group.why.trim().is_empty()) {
-            None => Ok(Declared { phrases, ..declared }),
-            Some(Group { phrases, .. }) => {
-                Err(Error::Message(format!("literals.toml: {phrases:?} have no reason in `why`")))
+        let mut declared: Declared = toml::from_str(text).map_err(syntax)?;
+        for Group { why, phrases } in &mut declared.literal {
+            if why.trim().is_empty() {
+                let problem = format!("literals.toml: {phrases:?} have no reason in `why`");
+                return Err(Error::Message(problem));
             }
+            phrases.iter_mut().for_each(|phrase| phrase.make_ascii_lowercase());
         }
+        Ok(declared)
     }
 
     /// Returns whether the word at this offset stands in a declared phrase, perhaps in two lines.
@@ -51,11 +49,8 @@ impl Declared {
             words.is_some_and(|words| words.replace('\n', " ").eq_ignore_ascii_case(phrase))
         };
         let word = word.to_ascii_lowercase();
-        self.phrases.match_indices(&word).any(|(at, _)| {
-            let begin = self.phrases[..at].rfind('\0').map_or(0, |end| end + 1);
-            let phrase = self.phrases[begin..].split('\0').next().unwrap_or_default();
-            stands(phrase, at - begin)
-        })
+        let mut phrases = self.literal.iter().flat_map(|group| &group.phrases);
+        phrases.any(|phrase| phrase.match_indices(&word).any(|(offset, _)| stands(phrase, offset)))
     }
 }
 

@@ -86,11 +86,8 @@ fn block(block: &Block) -> String {
         Block::Lab { .. } => String::new(),
         Block::Bibliography(entries) => {
             let entry = |entry: &document::Reference| {
-                format!(
-                    "- {}{}",
-                    anchor(&format!("ref:{}", entry.key)),
-                    inlines(&entry.to_inlines())
-                )
+                let place = anchor(&format!("ref:{}", entry.key));
+                format!("- {place}{}", inlines(&entry.to_inlines()))
             };
             entries.iter().map(entry).collect::<Vec<_>>().join("\n")
         }
