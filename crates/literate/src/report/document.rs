@@ -12,12 +12,7 @@ use pulldown_cmark::Alignment;
 #[derive(Clone, Debug, PartialEq)]
 pub enum Block {
     /// A heading; level 1 is the title. It has no number, nor have unnumbered sections.
-    Heading {
-        level: u8,
-        number: Option<String>,
-        id: Option<String>,
-        text: Vec<Inline>,
-    },
+    Heading { level: u8, number: Option<String>, id: Option<String>, text: Vec<Inline> },
     /// A paragraph; displayed equations stand inside it.
     Paragraph(Vec<Inline>),
     /// A figure, with the names of its files for pages and for LaTeX (the path in the prose until
@@ -31,17 +26,14 @@ pub enum Block {
         origin: Vec<Inline>,
         caption: Vec<Inline>,
     },
+    /// A table, which has a number if it has a caption.
     Table(Table),
     /// A list; an ordered one has the number with which it starts.
-    List {
-        start: Option<u64>,
-        items: Vec<Vec<Block>>,
-    },
+    List { start: Option<u64>, items: Vec<Vec<Block>> },
+    /// A quotation.
     Quote(Vec<Block>),
-    Code {
-        language: String,
-        code: String,
-    },
+    /// A block of code.
+    Code { language: String, code: String },
     /// A piece of the source: the path of the item, its file, and a link to that.
     Listing {
         id: String,
@@ -53,10 +45,7 @@ pub enum Block {
         code: String,
     },
     /// A function that readers of a page can run, by its name.
-    Lab {
-        lab: String,
-        caption: Vec<Inline>,
-    },
+    Lab { lab: String, caption: Vec<Inline> },
     /// The place of the list of references, which `Labels::resolve` fills.
     Bibliography(Vec<Reference>),
 }
@@ -95,45 +84,31 @@ impl Reference {
 pub enum Inline {
     /// Words; no markup inside.
     Text(String),
+    /// The end of a line in the prose.
     Soft,
+    /// Code within a line.
     Code(String),
+    /// Slanted words.
     Emphasis(Vec<Inline>),
+    /// Bold words.
     Strong(Vec<Inline>),
     /// Small and raised, as the number of a note: verdicts after a statement.
     Raised(Vec<Inline>),
+    /// A formula within a line.
     Maths(Formula),
     /// A displayed equation without its tag; one without an id has no number.
-    Display {
-        formula: Formula,
-        id: Option<String>,
-        number: String,
-    },
-    Value {
-        id: String,
-        printed: Printed,
-    },
+    Display { formula: Formula, id: Option<String>, number: String },
+    /// A value, which leads to its card.
+    Value { id: String, printed: Printed },
     /// A link out of the report, or to a file next to it.
-    Link {
-        to: String,
-        words: Vec<Inline>,
-    },
+    Link { to: String, words: Vec<Inline> },
     /// References `[@fig:3; @fig:8]` and citations `[@rice1945]`, or one of them without brackets
     /// in a sentence, until they are resolved.
-    Unresolved {
-        ids: Vec<String>,
-        in_sentence: bool,
-    },
+    Unresolved { ids: Vec<String>, in_sentence: bool },
     /// A resolved reference to `fig:3` or `ref:rice1945`, and the other document that has it.
-    Reference {
-        to: String,
-        within: Option<Document>,
-        label: String,
-    },
+    Reference { to: String, within: Option<Document>, label: String },
     /// A place that can be referred to, `[!claim:rise]`; shows its number.
-    Anchor {
-        id: String,
-        number: String,
-    },
+    Anchor { id: String, number: String },
 }
 
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -12,9 +12,8 @@ use std::collections::BTreeSet;
 pub struct Filled {
     /// The text; values are marks in it.
     pub text: String,
-    templates: Vec<(String, String)>,
-    /// Of each template the names of what was typed in its tags.
-    typed: Vec<BTreeSet<String>>,
+    /// Paths and texts, and the names of what was typed in their tags.
+    templates: Vec<(String, String, BTreeSet<String>)>,
     origins: Vec<Origin>,
 }
 
@@ -34,8 +33,7 @@ impl Filled {
             self.text += "\n\n";
         }
         let template = self.templates.len();
-        self.templates.push((path.into(), text.into()));
-        self.typed.push(typed_names(text));
+        self.templates.push((path.into(), text.into(), typed_names(text)));
         let here = |start, offset, is_tag| Origin { start, template, offset, is_tag };
         self.origins.push(here(self.text.len(), 0, false));
         for piece in pieces(filled) {
@@ -60,7 +58,7 @@ impl Filled {
     /// Returns the place in the template of an offset in the text.
     pub fn place(&self, offset: usize) -> Place {
         let origin = self.origin(offset);
-        let (path, text) = &self.templates[origin.template];
+        let (path, text, _) = &self.templates[origin.template];
         let beyond = if origin.is_tag { 0 } else { offset - origin.start };
         Place::in_text(path.clone(), text, (origin.offset + beyond).min(text.len()))
     }
@@ -68,9 +66,9 @@ impl Filled {
     /// Returns whether people typed what stands at an offset, as text or within a tag.
     pub fn is_typed(&self, offset: usize) -> bool {
         let Origin { template, offset, is_tag, .. } = self.origin(offset);
-        let inside = self.templates[template].1[offset..].trim_start_matches('«');
-        let inside = inside.split('»').next().unwrap_or_default();
-        !is_tag || is_typed(inside, &self.typed[template])
+        let (_, text, names) = &self.templates[template];
+        let inside = text[offset..].trim_start_matches('«').split('»').next();
+        !is_tag || is_typed(inside.unwrap_or_default(), names)
     }
 }
 

@@ -56,7 +56,11 @@ impl Filler {
         }
         let set = tera.set_delimiters(delimiters);
         tera.autoescape_on(Vec::<&str>::new());
-        let sources = templates.iter().filter_map(source);
+        let sources = templates.iter().filter_map(|(path, text)| match path.rsplit_once('.')?.1 {
+            "md" => Some((path, with_places(text))),
+            "tex" | "html" => Some((path, text.to_string())),
+            _ => None,
+        });
         let parse = || set.and_then(|()| tera.add_raw_templates(sources));
         let (names, added) = rayon::join(|| context_names(values, &tables), parse);
         let mut context = Context::new();
@@ -245,15 +249,6 @@ fn steps(expression: &str) -> Vec<(Option<&str>, usize)> {
 const FILTERS: [&str; 3] = ["percent", "significant", "otherwise"];
 const NOT_TRUE: &str = "the words before are no longer true";
 
-/// Returns path and text of a file that Tera fills; prose has marks of its places.
-fn source((path, text): (&str, &str)) -> Option<(String, String)> {
-    match path.rsplit_once('.')?.1 {
-        "md" => Some((path.into(), with_places(text))),
-        "tex" | "html" => Some((path.into(), text.into())),
-        _ => None,
-    }
-}
-
 fn plain_number(value: &Value) -> Json {
     match &value.number {
         Number::None => Json::Null,
@@ -303,10 +298,9 @@ fn insert_at(tree: &mut Json, path: &[&str], value: Json) {
 
 /// Registers the filters and functions that the manual lists; the values `empty` have no number.
 fn register(tera: &mut Tera, empty: BTreeSet<String>) {
-    let with = |mark: &str, word: &str| {
-        let problem =
-            || tera::Error::message(format!("`{word}` is a filter for values, as v.name"));
-        mark::with_filter(mark, word).ok_or_else(problem)
+    let with = |mark: &str, word: &str| match &pieces(mark)[..] {
+        [Piece::Value { id, filters }] => Ok(mark::framed(id, &format!("{filters} {word}"))),
+        _ => Err(tera::Error::message(format!("`{word}` is a filter for values, as v.name"))),
     };
     tera.register_filter("percent", move |mark: &str, _: Kwargs, _: &State| with(mark, "percent"));
     tera.register_filter("significant", move |mark: &str, arguments: Kwargs, _: &State| {

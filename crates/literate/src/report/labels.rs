@@ -91,7 +91,7 @@ impl Labels {
         let (mut section, mut subsection) = (format!("{}0", document.letter), 0);
         let mut errors = Vec::new();
         for block in blocks.iter_mut() {
-            let (id, number) = match block {
+            let (kind, id, number) = match block {
                 Block::Heading { level, number, id, text } => {
                     match number {
                         Some(number) if *level == 2 => {
@@ -104,29 +104,29 @@ impl Labels {
                         }
                         None => (),
                     }
-                    if id.is_none() && number.is_some() {
+                    if let Some(id) = id {
+                        errors.extend(self.add(
+                            id,
+                            number.as_deref().unwrap_or_default(),
+                            document,
+                        ));
+                    } else if number.is_some() {
                         let place = heading_place(None, number.as_deref(), text);
                         errors.extend(self.take_place(&place.clone(), place, document.page));
                     }
-                    (id.as_deref(), number.as_deref().unwrap_or_default())
+                    continue;
                 }
                 // A repeated figure has its label in another document.
-                Block::Figure { id, number, .. } if !document.repeats => {
-                    if number.is_empty() {
-                        *number = next("fig");
-                    }
-                    (Some(id.as_str()), number.as_str())
-                }
-                Block::Listing { id, number, .. } => {
-                    *number = next("lst");
-                    (Some(id.as_str()), number.as_str())
-                }
+                Block::Figure { id, number, .. } if !document.repeats => ("fig", Some(id), number),
+                Block::Listing { id, number, .. } => ("lst", Some(id), number),
                 Block::Table(Table { id, number: Some(number), .. }) => {
-                    *number = next("tab");
-                    (id.as_deref(), number.as_str())
+                    ("tab", id.as_mut(), number)
                 }
                 _ => continue,
             };
+            if number.is_empty() {
+                *number = next(kind);
+            }
             errors.extend(id.and_then(|id| self.add(id, number, document)));
         }
         visit(blocks, &mut |inline| match inline {
