@@ -1,11 +1,11 @@
 //! Assembles a report: from results and prose makes every file of it, as bytes. It writes no file.
 
 use super::bibliography::Library;
-use super::card::{Cards, link_to_line, links};
+use super::card::{Cards, link_to_line};
 use super::claims::{scorecard, to_row};
-use super::document::{self, Block, Inline, visit};
+use super::document::{self, Block, Inline};
 use super::edition::{Document, Edition};
-use super::error::{Error, Thing, fault};
+use super::error::{Error, Thing};
 use super::filled::Filled;
 use super::filler::Filler;
 use super::folder::{self, Files, SUMS, is_generated};
@@ -19,7 +19,7 @@ use super::{coded, html, latex, ledger, markdown, parse, search, tex};
 use crate::claims::Check;
 use crate::experiments::AnyExperiment;
 use crate::figures::Figure;
-use crate::input::{Place, one_line};
+use crate::input::Place;
 use crate::names::Names;
 use crate::project::Project;
 use crate::prose::Templates;
@@ -136,21 +136,20 @@ fn parts<'a>(
 ) -> Result<(Vec<Part<'a>>, Labels, Ledger), Error> {
     let path = input.templates.place("references.bib");
     let library = Library::read(&path, input.templates.text("references.bib")?)?;
-    let (mut labels, mut errors) = (Labels::default(), Vec::new());
+    let (mut labels, mut errors) = (Labels::new(input.claims), Vec::new());
     let read = |(filled, document): (&'a Filled, &Document)| parse::parse(filled, *document, input);
     let documents = filled.par_iter().zip(&input.edition.documents);
     let mut parts: Vec<Part<'_>> = documents.with_max_len(1).map(read).collect();
     let is_broken = parts.iter().any(|part| !part.errors.is_empty());
-    for (Part { document, blocks, places, errors: own }, filled) in parts.iter_mut().zip(filled) {
+    let linked = |inline| match inline {
+        Inline::Code(item) if item.contains("::") => link_to_line(&item, input.project),
+        other => other,
+    };
+    for Part { document, blocks, places, errors: own } in &mut parts {
         errors.append(own);
-        if !is_broken && document::title(blocks).is_none() {
-            let error = fault("a report begins with its title, `# Words`");
-            errors.push(error.with_place(filled.place(0)));
-        }
-        let mut named = illustrate(blocks, input);
-        named.extend(other_digits(blocks, &input.edition.equations));
-        named.extend(labels.number_all(blocks, *document));
-        errors.extend(named.into_iter().map(|error| places.locate(error)));
+        document::rewrite(blocks, &mut |inline| document::relative_link(linked(inline), input.top));
+        let numbered = labels.number_all(blocks, *document).into_iter();
+        errors.extend(numbered.map(|error| places.locate(error)));
     }
     let ledger = ledger_of(input, &parts, &labels);
     // What a block with an error shows or names is not known.
@@ -168,9 +167,6 @@ fn parts<'a>(
         }
     }
     errors.extend(labels.add_keys(library.keys()));
-    let verdicts = labels.add_verdicts(input.claims).into_iter();
-    let locate = |error| parts.iter().fold(error, |error, part| part.places.locate(error));
-    errors.extend(verdicts.map(locate));
     // What stands in a block with an error has an id without a number.
     for part in parts.iter().filter(|_| is_broken) {
         labels.add_missing(&part.places, part.document);
@@ -182,23 +178,6 @@ fn parts<'a>(
     all_in_order(errors)?;
     library.warnings().for_each(|line| (input.warn)(&line));
     Ok((parts, labels, ledger))
-}
-
-/// Finds the equations whose digits are not those that the list of equations has.
-fn other_digits(blocks: &mut [Block], equations: &[EquationEntry]) -> Vec<Error> {
-    let mut errors = Vec::new();
-    visit(blocks, &mut |inline| {
-        let Inline::Display { formula, number, .. } = inline else { return };
-        let digits: String = formula.to_tex().chars().filter(char::is_ascii_digit).collect();
-        let listed = equations.iter().filter(|listed| listed.number.to_string() == *number);
-        for other in listed.filter_map(|equation| equation.digits).filter(|other| *other != digits)
-        {
-            let problem =
-                format!("equation ({number}) has the digits {digits}, in the list {other}");
-            errors.push(Error::named(Thing::Id, &format!("eq:{number}"), problem));
-        }
-    });
-    errors
 }
 
 /// Makes the ledger, in which figures have the labels and numbers that the documents give them.
@@ -333,43 +312,4 @@ fn check_links(part: &Part<'_>, labels: &Labels, files: &Files, input: &Input<'_
         Error::unknown(Thing::Link, to, &problem, committed()).with_place(place)
     };
     part.places.named(Thing::Link).filter(|(to, _)| !is_good(to)).map(error).collect()
-}
-
-/// Adds texts, data and code to figures, and makes links to files of the project relative.
-fn illustrate(blocks: &mut [Block], input: &Input<'_>) -> Vec<Error> {
-    let mut errors = Vec::new();
-    let path = |figure: &Figure| format!("figures/{}", figure.names()[0]);
-    let paths: Vec<String> = input.figures.iter().map(path).collect();
-    for block in blocks.iter_mut() {
-        let Block::Figure { files, alt, origin, .. } = block else { continue };
-        let Some(index) = paths.iter().position(|path| *path == files[0]) else {
-            let problem = format!(
-                "there is no figure {}; use figures/NAME.svg of a figure of the paper; a file becomes one by Figure::picture",
-                one_line(&files[0], 200)
-            );
-            let paths = paths.iter().map(String::as_str);
-            errors.push(Error::unknown(Thing::Picture, &files[0], &problem, paths));
-            continue;
-        };
-        let figure = &input.figures[index];
-        *files = figure.names();
-        *alt = figure.description.text.clone();
-        let data: Vec<String> =
-            figure.data.iter().map(|file| format!("data/{}", file.name)).collect();
-        let code = input.project.sources.file(&figure.source).map(|file| format!("../{file}"));
-        for (name, files) in [("Data: ", data), ("Code: ", code.into_iter().collect())] {
-            if !files.is_empty() {
-                let blank = if origin.is_empty() { "" } else { " " };
-                origin.push(Inline::Text(format!("{blank}{name}")));
-                origin.extend(links(&files));
-                origin.push(Inline::Text(".".into()));
-            }
-        }
-    }
-    let linked = |inline| match inline {
-        Inline::Code(item) if item.contains("::") => link_to_line(&item, input.project),
-        other => other,
-    };
-    document::rewrite(blocks, &mut |inline| document::relative_link(linked(inline), input.top));
-    errors
 }

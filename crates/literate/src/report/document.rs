@@ -15,8 +15,7 @@ pub enum Block {
     Heading { level: u8, number: Option<String>, id: Option<String>, text: Vec<Inline> },
     /// A paragraph; displayed equations stand inside it.
     Paragraph(Vec<Inline>),
-    /// A figure, with the names of its files for pages and for LaTeX (the path in the prose until
-    /// the figure is found); the origin says where its data and code are.
+    /// A figure, with its files for pages and for LaTeX; the origin leads to its data and code.
     Figure {
         id: String,
         number: String,

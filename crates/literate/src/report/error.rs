@@ -6,13 +6,12 @@ use crate::table::nearest;
 const MAX_LENGTH: usize = 1000;
 
 /// What the prose writes and an error can name: an id that it gives, a reference, the address of a
-/// link, the path of a picture, or the TeX of a formula.
+/// link or picture, or the TeX of a formula.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Thing {
     Id,
     Reference,
     Link,
-    Picture,
     Formula,
 }
 

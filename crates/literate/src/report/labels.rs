@@ -28,6 +28,11 @@ pub struct Labels {
 }
 
 impl Labels {
+    pub fn new(claims: &[Check]) -> Self {
+        let signs = claims.iter().map(|claim| (claim.id.clone(), claim.verdict.sign())).collect();
+        Labels { signs, ..Labels::default() }
+    }
+
     fn add(&mut self, id: &str, number: &str, document: Document) -> Option<Error> {
         let error = |problem: &str| Error::named(Thing::Id, id, format!("{id}: {problem}"));
         let name = id.split_once(':').map_or(id, |(_, name)| name);
@@ -144,18 +149,6 @@ impl Labels {
             _ => (),
         });
         errors
-    }
-
-    /// Takes the signs of verdicts; refuses a place of a statement that does not exist.
-    pub fn add_verdicts(&mut self, claims: &[Check]) -> Vec<Error> {
-        self.signs = claims.iter().map(|claim| (claim.id.clone(), claim.verdict.sign())).collect();
-        let ids = self.labels.keys().filter_map(|id| id.strip_prefix("claim:"));
-        let error = |id: &str| {
-            let problem = format!("[!claim:{id}]: there is no statement with this id");
-            let known = self.signs.keys().map(String::as_str);
-            Error::unknown(Thing::Id, &format!("claim:{id}"), &problem, known)
-        };
-        ids.filter(|id| !self.signs.contains_key(*id)).map(error).collect()
     }
 
     /// Resolves all references of a document, and fills its list of references with what it cites.

@@ -163,6 +163,12 @@ impl Reader<'_> {
                 return Err(fault(format!("[!{id}] {problem}, or a place as [!claim:id]")));
             }
             self.add_id("claim", id, offset)?;
+            let known = self.input.claims.iter().map(|claim| claim.id.as_str());
+            let name = id.trim_start_matches("claim:");
+            if known.clone().all(|known| known != name) {
+                let problem = format!("[!{id}]: there is no statement with this id");
+                return Err(Error::unknown(Thing::Id, name, &problem, known));
+            }
             return Ok(Inline::Anchor { id: id.to_string(), number: String::new() });
         }
         let is_id = |id: &&str| !id.is_empty() && !id.contains([',', ' ', '\n', '@']);
@@ -284,6 +290,15 @@ impl Reader<'_> {
             (id, number, tex) = (Some(tag_id), tag.into(), format!("{}{}", before.trim(), after));
         }
         let formula = self.formula(tex.trim(), range.start)?;
+        let digits: String = formula.to_tex().chars().filter(char::is_ascii_digit).collect();
+        let mut listed = self.input.edition.equations.iter();
+        let listed = listed.find(|listed| listed.number.to_string() == number);
+        let expected = listed.and_then(|equation| equation.digits).unwrap_or(&digits);
+        if expected != digits {
+            let problem =
+                format!("equation ({number}) has the digits {digits}, in the list {expected}");
+            self.note_error(range.start, Error::Message(problem));
+        }
         Ok(Inline::Display { formula, id, number })
     }
 

@@ -7,12 +7,14 @@ mod brackets;
 mod inlines;
 
 use super::assemble::Input;
+use super::card::links;
 use super::document::{Block, Inline, Table, to_plain_text};
 use super::edition::Document;
 use super::error::{Error, Thing, fault};
 use super::filled::{Filled, Places};
 use super::labels::check_kind;
 use super::latex;
+use crate::input::one_line;
 use pulldown_cmark::{
     Alignment, BrokenLink, CodeBlockKind, CowStr, Event, Options, Parser, Tag, TagEnd,
 };
@@ -50,6 +52,9 @@ pub fn parse<'a>(filled: &'a Filled, document: Document, input: &Input<'a>) -> P
         errors: Vec::new(),
     };
     let blocks = reader.blocks().unwrap_or_default();
+    if reader.errors.is_empty() && !reader.has_title {
+        reader.note_error(0, fault("a report begins with its title, `# Words`"));
+    }
     let is_hidden = |(_, c): &(usize, char)| c.is_control() && !['\n', '\t'].contains(c);
     if let Some((offset, c)) = filled.text.char_indices().find(is_hidden) {
         reader.note_error(offset, Error::NoLatex(c));
@@ -260,16 +265,37 @@ impl<'a> Reader<'a> {
         if !to_plain_text(&behind).trim().is_empty() {
             return Err(fault(FIGURE_NOT_ALONE));
         }
-        let file = path.rsplit('/').next().unwrap_or_default();
-        let name = file.rsplit_once('.').map_or(file, |(name, _)| name).to_string();
-        let files = [path.to_string(), String::new()];
+        let Input { figures, project, .. } = self.input;
+        let paths: Vec<String> =
+            figures.iter().map(|figure| format!("figures/{}", figure.names()[0])).collect();
+        let Some(index) = paths.iter().position(|known| known == path) else {
+            let problem = format!(
+                "there is no figure {}; use figures/NAME.svg of a figure of the paper; a file becomes one by Figure::picture",
+                one_line(path, 200)
+            );
+            let paths = paths.iter().map(String::as_str);
+            return Err(Error::unknown(Thing::Link, path, &problem, paths));
+        };
+        let figure = &figures[index];
+        let (name, files, alt) =
+            (figure.id.clone(), figure.names(), figure.description.text.clone());
+        let data: Vec<String> =
+            figure.data.iter().map(|file| format!("data/{}", file.name)).collect();
+        let code = project.sources.file(&figure.source).map(|file| format!("../{file}"));
+        let mut origin = Vec::new();
+        for (name, files) in [("Data: ", data), ("Code: ", code.into_iter().collect())] {
+            if !files.is_empty() {
+                let blank = if origin.is_empty() { "" } else { " " };
+                origin.push(Inline::Text(format!("{blank}{name}")));
+                origin.extend(links(&files));
+                origin.push(Inline::Text(".".into()));
+            }
+        }
         let id = id.unwrap_or_else(|| format!("fig:{name}"));
         self.add_id("fig", &id, at)?;
-        self.places.add(Thing::Picture, path, at);
         let given = id.trim_start_matches("fig:");
         let digits = given.trim_start_matches(|c: char| c.is_ascii_uppercase());
         let number = if digits.parse::<u32>().is_ok() { given.into() } else { String::new() };
-        let (alt, origin) = Default::default();
         Ok(Block::Figure { id, number, name, files, alt, origin, caption })
     }
 
