@@ -94,6 +94,7 @@ pub fn make_report(
 ) -> Result<(Files, Vec<Check>), Failure> {
     let Session { templates, progress, .. } = session;
     let filler = Filler::new(templates)?;
+    let declared = filler.declared.clone();
     let published = paper.published(session)?;
     let results = paper.results(&paper.experiments, session)?;
     results.tables()?;
@@ -120,6 +121,7 @@ pub fn make_report(
         &Input {
             templates,
             values: &values,
+            declared: &declared,
             rows: &rows,
             claims: &checks,
             figures: &figures,

@@ -100,6 +100,7 @@ impl Given {
             &Input {
                 templates,
                 values: &values,
+                declared: &Default::default(),
                 rows: &Default::default(),
                 claims: &self.claims,
                 figures: &self.figures,
@@ -153,7 +154,7 @@ report.html => You run <em>them</em>.
 lab.js => end();"##;
     has(&with, parts);
     assert!(!file(&without, "report.html").contains("You run"));
-    assert!(!without.contains_key(input::LAB));
+    assert!(!without.contains_key("lab.js"));
     for report in [&mut with, &mut without] {
         report.retain(|path, _| !folder::is_generated(path));
     }
