@@ -66,12 +66,11 @@ impl Filler {
     /// `keys.table.rows`.
     pub fn insert_values(&mut self, values: &ValueRegistry) {
         // Tables for figures alone are long, and no template needs them.
-        let templates: Vec<&str> = self
-            .tera
-            .get_template_names()
-            .filter_map(|path| self.templates.text(path).ok())
-            .collect();
-        let named = |table: &&Table| templates.iter().any(|text| text.contains(table.name()));
+        let named = |table: &&Table| {
+            let mut filled =
+                self.templates.iter().filter(|(path, _)| self.tera.contains_template(path));
+            filled.any(|(_, text)| text.contains(table.name()))
+        };
         let tables: Vec<&Table> = values.tables().filter(named).collect();
         let cells = tables.iter().copied().flat_map(Table::cells);
         let empty = values.iter().chain(cells).filter(|value| value.number == Number::None);
