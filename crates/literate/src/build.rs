@@ -93,7 +93,8 @@ pub fn make_report(
     out: &Path,
 ) -> Result<(Files, Vec<Check>), Failure> {
     let Session { templates, progress, .. } = session;
-    Filler::new(templates, &ValueRegistry::default())?;
+    let filler = Filler::new(templates)?;
+    let declared = filler.declared.clone();
     let published = paper.published(session)?;
     let results = paper.results(&paper.experiments, session)?;
     results.tables()?;
@@ -102,26 +103,35 @@ pub fn make_report(
         figure.figure(&results)
     };
     let figures =
-        paper.figures.par_iter().with_max_len(1).map(figure).collect::<Result<Vec<Figure>, _>>()?;
-    let checks = judge_all(&published, &paper.rules, &results)?;
-    let statements: Vec<Check> =
-        checks.iter().filter(|check| check.kind.is_printed()).cloned().collect();
-    let values = paper.registry(&results, &published)?;
-    let rows = paper.rows.map(|rows| rows(&results, &statements)).transpose()?.unwrap_or_default();
-    let lab = paper.lab.map(|lab| lab(session, &results)).transpose()?.flatten();
+        || paper.figures.par_iter().with_max_len(1).map(figure).collect::<Result<Vec<Figure>, _>>();
+    let judge = || {
+        let checks = judge_all(&published, &paper.rules, &results)?;
+        let statements = checks.iter().filter(|check| check.kind.is_printed());
+        let statements: Vec<Check> = statements.cloned().collect();
+        let rows = paper.rows.map(|rows| rows(&results, &statements)).transpose()?;
+        let lab = paper.lab.map(|lab| lab(session, &results)).transpose()?.flatten();
+        let values = paper.registry(&results, &published)?;
+        Ok::<_, Failure>((checks, values, rows.unwrap_or_default(), lab))
+    };
+    let (figures, judged) = rayon::join(figures, judge);
+    let (figures, (checks, values, rows, lab)) = (figures?, judged?);
     progress.check()?;
-    let report = assemble(&Input {
-        templates,
-        values: &values,
-        rows: &rows,
-        claims: &checks,
-        figures: &figures,
-        lab: lab.as_deref(),
-        top: paper.project.way_up(out).as_deref(),
-        edition: &paper.edition,
-        project: &paper.project,
-        experiments: &paper.experiments,
-        warn: &|line| progress.say(line),
-    })?;
+    let report = assemble(
+        filler,
+        &Input {
+            templates,
+            values: &values,
+            declared: &declared,
+            rows: &rows,
+            claims: &checks,
+            figures: &figures,
+            lab: lab.as_deref(),
+            top: paper.project.way_up(out).as_deref(),
+            edition: &paper.edition,
+            project: &paper.project,
+            experiments: &paper.experiments,
+            warn: &|line| progress.say(line),
+        },
+    )?;
     Ok((report, checks))
 }

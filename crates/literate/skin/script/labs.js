@@ -3,6 +3,7 @@
 // address has settings for it: beyond.html#chain:sigma=0.1.
 
 let lab;
+if (all(".lab").length === 0) document.documentElement.classList.remove("runs");
 for (const figure of all(".runs .lab")) {
   const status = figure.querySelector("[role=status]");
   const is_asked = location.hash.startsWith(`#${figure.dataset.lab}:`);

@@ -7,7 +7,7 @@ use crate::experiments::{AnyExperiment, Profile, Progress, Session, Store};
 use crate::failure::Failure;
 use crate::input::{count, read_text};
 use crate::paper::Paper;
-use crate::report::{folder, values};
+use crate::report::{ValueRegistry, folder};
 use std::path::{Path, PathBuf};
 
 #[derive(clap::Args)]
@@ -83,7 +83,8 @@ pub(super) fn refuse_outdated(
 
 /// Returns the profile of the report in a folder, or `None` if there is no report.
 pub(super) fn profile_in(root: &Path) -> Option<Profile> {
-    values::read(&read_text(&root.join("values.json")).ok()?).ok()?.profile()
+    let json = read_text(&root.join("values.json")).ok()?;
+    serde_json::from_str::<ValueRegistry>(&json).ok()?.profile()
 }
 
 fn of_kind(checks: &[Check], kind: Kind) -> impl Iterator<Item = &Check> + Clone {

@@ -5,11 +5,11 @@ use crate::claims::Check;
 use crate::failure::Failure;
 use crate::input::{count, is_control, one_line, read_file};
 use crate::print::{Style, print as printed};
+use crate::report::Files;
 use crate::report::document::{to_spelt_text, words_and_maths};
 use crate::report::folder::{self, SUMS};
-use crate::report::ledger::{self, Ledger};
-use crate::report::values::{self, Digits, Value, ValueRegistry};
-use crate::report::{Error, Files};
+use crate::report::ledger::Ledger;
+use crate::report::values::{Digits, Value, ValueRegistry};
 use std::collections::BTreeSet;
 use std::path::Path;
 use std::process::Command;
@@ -62,9 +62,11 @@ fn parts(name: &str) -> Result<Parts, Failure> {
         let bytes = files.get(path).ok_or_else(|| fault(format!("{path} is missing")))?;
         std::str::from_utf8(bytes).map_err(|error| fault(format!("{path}: {error}")))
     };
-    let unreadable = |error: Error| fault(error.to_string());
-    let values = values::read(content("values.json")?).map_err(unreadable)?;
-    let ledger = ledger::read(content("ledger.json")?).map_err(unreadable)?;
+    let unreadable = |name| move |error| fault(format!("{name}: {error}"));
+    let values =
+        content("values.json").map(serde_json::from_str)?.map_err(unreadable("values.json"))?;
+    let ledger =
+        content("ledger.json").map(serde_json::from_str)?.map_err(unreadable("ledger.json"))?;
     Ok(Parts { files, values, ledger })
 }
 

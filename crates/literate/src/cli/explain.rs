@@ -5,10 +5,12 @@ use crate::experiments::{Command, Profile, Store};
 use crate::failure::Failure;
 use crate::input::{is_control, one_line, read_text};
 use crate::paper::Paper;
+use crate::report::ValueRegistry;
 use crate::report::card::{Card, Cards};
 use crate::report::document::{Inline, to_spelt_text};
-use crate::report::{Error, ledger, values};
+use crate::report::ledger::Ledger;
 use crate::table::{DataFile, table_name};
+use serde::de::DeserializeOwned;
 use std::path::{Path, PathBuf};
 
 /// Say where a number, a figure, an equation or a statement of the report comes from
@@ -38,8 +40,8 @@ pub(super) struct Args {
 
 pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     let folder = args.paper.unwrap_or_else(|| paper.project.place("paper"));
-    let values = values::read(&read(&folder, "values.json")?).map_err(fault)?;
-    let ledger = ledger::read(&read(&folder, "ledger.json")?).map_err(fault)?;
+    let values: ValueRegistry = read(&folder, "values.json")?;
+    let ledger: Ledger = read(&folder, "ledger.json")?;
     let Paper { edition, project, experiments, .. } = paper;
     let (values, ledger, shared) = (&values, &ledger, Default::default());
     let cards = Cards { values, ledger, edition, project, experiments, shared };
@@ -94,14 +96,13 @@ fn rows_of(asked: &str, folder: &Path) -> Option<String> {
     Some(format!("{}: in {path}\n{lines}", clean(&address)))
 }
 
-fn read(paper: &Path, name: &str) -> Result<String, Failure> {
+fn read<T: DeserializeOwned>(paper: &Path, name: &str) -> Result<T, Failure> {
     let place = || format!("--paper: {}", paper.join(name).display());
-    let content = read_text(&paper.join(name));
-    content.map_err(|e| Failure::io(&e, place(), "give the folder of a report"))
-}
-
-fn fault(error: Error) -> Failure {
-    Failure::input(format!("--paper: {error}; make the report anew with `paper`"))
+    let json = read_text(&paper.join(name));
+    let json = json.map_err(|e| Failure::io(&e, place(), "give the folder of a report"))?;
+    let remedy = "make the report anew with `paper`";
+    serde_json::from_str(&json)
+        .map_err(|error| Failure::input(format!("--paper: {name}: {error}; {remedy}")))
 }
 
 fn card_line(card: &Card) -> String {

@@ -1,66 +1,85 @@
 //! Assembles a report: from results and prose makes every file of it, as bytes. It writes no file.
 
 use super::bibliography::Library;
-use super::card::{Cards, link_to_line, links};
+use super::card::{Cards, link_to_line};
 use super::claims::{scorecard, to_row};
-use super::document::{self, Block, Inline, visit};
-use super::edition::Document;
+use super::document::{self, Block, Inline};
+use super::edition::{Document, Edition};
 use super::error::{Error, Thing};
-use super::filled::{Filled, Places};
+use super::filled::Filled;
 use super::filler::Filler;
 use super::folder::{self, Files, SUMS, is_generated};
-use super::input::{Input, LAB};
 use super::labels::Labels;
-use super::ledger::{EquationEntry, Ledger};
+use super::ledger::{EquationEntry, FigureEntry, Ledger};
 use super::lint::Declared;
 use super::mark;
-use super::parse::Parsed;
+use super::parse::Part;
 use super::values::ValueRegistry;
-use super::{coded, html, latex, ledger, markdown, parse, search};
+use super::{coded, html, latex, ledger, markdown, parse, search, tex};
 use crate::claims::Check;
+use crate::experiments::AnyExperiment;
 use crate::figures::Figure;
-use crate::input::{Place, one_line};
+use crate::input::Place;
 use crate::names::Names;
+use crate::project::Project;
+use crate::prose::Templates;
 use crate::table::{DataFile, Table};
+use rayon::iter::Either;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
-struct Part<'a> {
-    document: Document,
-    blocks: Vec<Block>,
-    places: Places<'a>,
+/// All that a report is made of.
+#[derive(Clone, Copy)]
+pub struct Input<'a> {
+    pub templates: &'a Templates,
+    pub values: &'a ValueRegistry,
+    /// Phrases that may have numbers.
+    pub declared: &'a Declared,
+    /// Rows of tables that are not values or claims, by the name that templates use.
+    pub rows: &'a BTreeMap<&'static str, serde_json::Value>,
+    /// Statements and relations.
+    pub claims: &'a [Check],
+    pub figures: &'a [Figure],
+    /// What a page loads when a reader asks it to compute: lab.js.
+    pub lab: Option<&'a str>,
+    /// The path from the report's folder to the project, `../`, or `None` if it lies elsewhere.
+    pub top: Option<&'a str>,
+    pub edition: &'a Edition,
+    pub project: &'a Project,
+    pub experiments: &'a [&'static dyn AnyExperiment],
+    /// Tells what is wrong and stops no report.
+    pub warn: &'a (dyn Fn(&str) + Sync),
+}
+
+impl<'a> Input<'a> {
+    pub(super) fn figure(&self, name: &str) -> Option<&'a Figure> {
+        self.figures.iter().find(|figure| figure.id == name)
+    }
 }
 
 /// Makes the whole report in memory. What is wrong with the prose of all documents is reported at
 /// once: first what Tera says, then what can be read and resolved, then what can be written.
-pub fn assemble(input: &Input<'_>) -> Result<Files, Error> {
-    let (mut values, mut filler, filled) = fill(input)?;
-    let used: BTreeSet<String> =
-        filled.iter().flat_map(|filled| mark::values(&filled.text)).map(|(id, ..)| id).collect();
-    values.keep_cells(used.iter().map(String::as_str));
-    values.shorten(&input.project.sources);
-
-    let declared = filler.declared.clone();
-    let read_parts = || parts(input, &filled, &values, &declared);
-    let tables: Vec<&Table> = values.tables().collect();
-    check_files(&tables, input.figures)?;
-    let tables = tables.par_iter().map(|table| data(&DataFile::from_table(table)));
+pub fn assemble(mut filler: Filler, input: &Input<'_>) -> Result<Files, Error> {
+    let tables: Vec<&Table> = input.values.tables().collect();
+    let data_of_tables = tables.par_iter().map(|table| data(&DataFile::from_table(table)));
     let figure = |figure: &Figure| files_of(figure, input.edition.license);
     let figures = input.figures.par_iter().flat_map_iter(figure);
-    let data_and_figures = || tables.chain(figures).collect::<Files>();
-    let check_code = || coded::check(input, &declared);
-    let (read_parts, (mut files, hard_coded)) =
-        rayon::join(read_parts, || rayon::join(data_and_figures, check_code));
+    let data_and_figures = || data_of_tables.chain(figures).collect::<Files>();
+    let (filled, mut files) = rayon::join(|| fill(input, &mut filler), data_and_figures);
+    let (values, filled) = filled?;
+    check_files(&tables, input.figures)?;
+
+    let of_parts = Input { values: &values, ..*input };
+    let read_parts = || parts(&of_parts, &filled);
+    let (read_parts, hard_coded) = rayon::join(read_parts, || coded::check(input));
     all_in_order(hard_coded)?;
-    let (parts, labels) = read_parts?;
+    let (parts, labels, ledger) = read_parts?;
     let cover = input.edition.cover.and_then(|cover| input.figure(cover));
     let style = input.templates.text("report.css")?;
     files.extend(cover.and_then(|figure| dark(figure, style)));
-    let ledger = ledger_of(input, &parts, &labels);
-    let jsons = [serde_json::to_string_pretty(&values), serde_json::to_string_pretty(&ledger)];
+    let jsons = [serde_json::to_vec_pretty(&values), serde_json::to_vec_pretty(&ledger)];
     for (name, json) in ["values.json", "ledger.json"].into_iter().zip(jsons) {
-        let json = json.map_err(|error| Error::Template(format!("{name}: {error}")))? + "\n";
-        files.insert(name.into(), json.into_bytes());
+        files.insert(name.into(), [json.unwrap_or_default(), b"\n".into()].concat());
     }
     let mut errors = Vec::new();
     let opened = write_documents(input, &parts, &mut filler, &mut files, &mut errors)?;
@@ -76,114 +95,90 @@ pub fn assemble(input: &Input<'_>) -> Result<Files, Error> {
     Ok(files)
 }
 
-/// Fills the prose of each document; returns also the values, with the scorecard among them.
-fn fill(input: &Input<'_>) -> Result<(ValueRegistry, Filler, Vec<Filled>), Error> {
+/// Fills the prose of each document; returns also the values, with the scorecard and the cells that
+/// the prose shows among them.
+fn fill(input: &Input<'_>, filler: &mut Filler) -> Result<(ValueRegistry, Vec<Filled>), Error> {
     let mut values = input.values.clone();
     let (printed, relations): (Vec<Check>, Vec<Check>) =
         input.claims.iter().cloned().partition(|claim| claim.kind.is_printed());
     values.extend(scorecard(&printed))?;
-    let mut filler = Filler::new(input.templates, &values)?;
+    filler.insert_values(&values);
     for (name, checks) in [("claims", printed), ("relations", relations)] {
-        filler.insert(name, &checks.iter().map(to_row).collect::<Vec<_>>());
+        filler.context.insert(name, &checks.iter().map(to_row).collect::<Vec<_>>());
     }
-    filler.insert("figures", &ledger::figures(input.figures));
-    filler.insert("equations", &input.edition.equations);
+    filler.context.insert("figures", &ledger::figures(input.figures));
+    filler.context.insert("equations", &input.edition.equations);
     for (name, rows) in input.rows {
-        filler.insert(name, rows);
+        filler.context.insert(*name, rows);
     }
-    let (mut filled, mut errors) = (Vec::new(), Vec::new());
     let documents = input.edition.documents.par_iter().with_max_len(1);
-    for prose in documents.map(|document| filler.prose(document)).collect::<Vec<_>>() {
-        match prose {
-            Ok(prose) => filled.push(prose),
-            Err(error) => errors.push(error),
-        }
-    }
+    let prose = documents.map(|document| filler.prose(document));
+    let (filled, errors): (Vec<Filled>, Vec<Error>) =
+        prose.partition_map(|prose| prose.map_or_else(Either::Right, Either::Left));
     all_in_order(errors)?;
-    Ok((values, filler, filled))
+    let used: BTreeSet<String> =
+        filled.iter().flat_map(|filled| mark::values(&filled.text)).map(|(id, ..)| id).collect();
+    values.keep_cells(used.iter().map(String::as_str));
+    values.shorten(&input.project.sources);
+    Ok((values, filled))
 }
 
 /// Fails if there are errors, with each of them once, in the order of their places.
-fn all_in_order(errors: Vec<Error>) -> Result<(), Error> {
-    let mut errors: Vec<Error> = errors.into_iter().flat_map(Error::into_list).collect();
+fn all_in_order(mut errors: Vec<Error>) -> Result<(), Error> {
     errors.sort_by(|a, b| a.place().cmp(&b.place()));
     errors.dedup_by_key(|error| error.to_string());
-    Error::check(errors)
+    if errors.is_empty() { Ok(()) } else { Err(Error::Several(errors)) }
 }
 
-/// Reads all documents into trees, with their figures, numbers and references. Returns all errors.
+/// Reads all documents into trees, with figures, numbers and references, and makes the ledger.
 fn parts<'a>(
     input: &Input<'a>,
     filled: &'a [Filled],
-    values: &'a ValueRegistry,
-    declared: &'a Declared,
-) -> Result<(Vec<Part<'a>>, Labels), Error> {
+) -> Result<(Vec<Part<'a>>, Labels, Ledger), Error> {
     let path = input.templates.place("references.bib");
     let library = Library::read(&path, input.templates.text("references.bib")?)?;
-    let (mut labels, mut placed, mut errors) = (Labels::default(), BTreeSet::new(), Vec::new());
-    let mut parts: Vec<Part<'_>> = Vec::new();
-    let parsed = |filled| parse::parse(filled, values, declared, &input.project.sources);
-    let parsed = filled.par_iter().with_max_len(1).map(parsed).collect::<Vec<_>>();
-    let is_broken = parsed.iter().any(|parsed| !parsed.errors.is_empty());
-    for ((document, filled), parsed) in input.edition.documents.iter().zip(filled).zip(parsed) {
-        let Parsed { mut blocks, places, errors: more } = parsed;
-        errors.extend(more);
-        if let Some(error) = document::title(&blocks).err().filter(|_| !is_broken) {
-            errors.push(error.with_place(filled.place(0)));
-        }
-        let (figures, more) = illustrate(&mut blocks, input);
-        errors.extend(more.into_iter().map(|error| places.locate(error)));
-        let digits = other_digits(&mut blocks, &input.edition.equations);
-        errors.extend(digits.into_iter().map(|error| places.locate(error)));
-        let numbered = labels.number_all(&mut blocks, *document);
-        errors.extend(numbered.err().map(|error| places.locate(error)));
-        if !document.repeats {
-            placed.extend(figures);
-        }
-        parts.push(Part { document: *document, blocks, places });
+    let (mut labels, mut errors) = (Labels::new(input.claims), Vec::new());
+    let read = |(filled, document): (&'a Filled, &Document)| parse::parse(filled, *document, input);
+    let documents = filled.par_iter().zip(&input.edition.documents);
+    let mut parts: Vec<Part<'_>> = documents.with_max_len(1).map(read).collect();
+    let is_broken = parts.iter().any(|part| !part.errors.is_empty());
+    let linked = |inline| match inline {
+        Inline::Code(item) if item.contains("::") => link_to_line(&item, input.project),
+        other => other,
+    };
+    for Part { document, blocks, places, errors: own } in &mut parts {
+        errors.append(own);
+        document::rewrite(blocks, &mut |inline| document::relative_link(linked(inline), input.top));
+        let numbered = labels.number_all(blocks, *document).into_iter();
+        errors.extend(numbered.map(|error| places.locate(error)));
     }
+    let ledger = ledger_of(input, &parts, &labels);
     // What a block with an error shows or names is not known.
     if !is_broken {
-        let figures = input.figures.iter().filter(|figure| !placed.contains(&figure.id));
-        errors.extend(figures.map(|figure| Error::NotShown(figure.id.clone())));
+        let not_shown = ledger.figures.iter().filter(|figure| figure.label.is_empty());
+        errors.extend(not_shown.map(|FigureEntry { id, .. }| {
+            let remedy = format!("put ![caption](figures/{id}.svg) into the prose");
+            Error::Rule(format!("figure {id} is not shown; {remedy}"))
+        }));
         for EquationEntry { number, .. } in &input.edition.equations {
             if labels.get(&format!("eq:{number}")).is_none() {
-                errors.push(Error::NoEquation(number.to_string()));
+                let remedy = format!("add \\tag{{{number}}} to it in the prose");
+                errors.push(Error::Message(format!("equation ({number}) is not shown; {remedy}")));
             }
         }
     }
-    errors.extend(labels.add_keys(library.keys()).err());
-    if let Err(error) = labels.add_verdicts(input.claims) {
-        errors.push(parts.iter().fold(error, |error, part| part.places.locate(error)));
-    }
+    errors.extend(labels.add_keys(library.keys()));
     // What stands in a block with an error has an id without a number.
     for part in parts.iter().filter(|_| is_broken) {
-        labels.add_missing(part.places.ids(), part.document);
+        labels.add_missing(&part.places, part.document);
     }
-    for Part { document, blocks, places } in &mut parts {
-        let resolved = labels.resolve(blocks, *document, &library);
-        errors.extend(resolved.err().map(|error| places.locate(error)));
+    for Part { document, blocks, places, .. } in &mut parts {
+        let unresolved = labels.resolve(blocks, *document, &library).into_iter();
+        errors.extend(unresolved.map(|error| places.locate(error)));
     }
     all_in_order(errors)?;
     library.warnings().for_each(|line| (input.warn)(&line));
-    Ok((parts, labels))
-}
-
-/// Finds the equations whose digits are not those that the list of equations has.
-fn other_digits(blocks: &mut [Block], equations: &[EquationEntry]) -> Vec<Error> {
-    let mut errors = Vec::new();
-    visit(blocks, &mut |inline| {
-        let Inline::Display { formula, number, .. } = inline else { return };
-        let digits: String = formula.to_tex().chars().filter(char::is_ascii_digit).collect();
-        let listed = equations.iter().filter(|listed| listed.number.to_string() == *number);
-        for other in listed.filter_map(|equation| equation.digits).filter(|other| *other != digits)
-        {
-            let problem =
-                format!("equation ({number}) has the digits {digits}, in the list {other}");
-            errors.push(Error::Named { thing: Thing::Id(format!("eq:{number}")), problem });
-        }
-    });
-    errors
+    Ok((parts, labels, ledger))
 }
 
 /// Makes the ledger, in which figures have the labels and numbers that the documents give them.
@@ -217,17 +212,15 @@ fn write_documents(
         let passages = search::passages(blocks, document.name);
         (print, html::write(blocks, *document, input), markdown::write(blocks), passages)
     };
-    let written: Vec<_> = parts.par_iter().with_max_len(1).map(write).collect();
+    let written = || parts.par_iter().with_max_len(1).map(write).collect::<Vec<_>>();
+    let (written, (index, points)) = rayon::join(written, || {
+        rayon::join(|| html::shared::data_index(files, edition), || points_of(input.figures))
+    });
     let (mut opened, mut texts) = (BTreeSet::new(), Vec::new());
     for (Part { document, places, .. }, written) in parts.iter().zip(written) {
-        let (print, (page, values), mut markdown, passages) = match written {
-            (Ok(print), Ok(page), markdown, passages) => (print, page, markdown, passages),
-            (print, page, ..) => {
-                let faults = print.err().into_iter().chain(page.err());
-                errors.extend(faults.map(|error| places.locate(error)));
-                continue;
-            }
-        };
+        let (print, (page, values, faults), mut markdown, passages) = written;
+        let unknown = tex::unknown(&print.to_string()).into_iter().map(Error::NoLatex);
+        errors.extend(unknown.chain(faults).map(|error| places.locate(error)));
         let byline = edition.byline(*document);
         if !byline.is_empty() {
             let byline = format!("\n\n*{}*\n\n", markdown::escape_text(&byline));
@@ -235,33 +228,36 @@ fn write_documents(
         }
         files.insert(document.markdown.into(), markdown.into_bytes());
         if let Some(name) = document.print {
-            filler.insert("print", &print);
+            filler.context.insert("print", &print);
             let tex = filler.fill("report.tex")?;
             files.insert(format!("{name}.tex"), tex.into_bytes());
         }
-        filler.insert("page", &page);
+        filler.context.insert("page", &page);
         files.insert(document.page.into(), filler.fill("report.html")?.into_bytes());
         opened.extend(values);
         texts.push(serde_json::json!([document.page, document.name, passages]));
     }
-    filler.insert("page", &html::shared::data_index(files, edition));
+    filler.context.insert("page", &index);
     files.insert("data/index.html".into(), filler.fill("data.html")?.into_bytes());
     let texts = format!("TEXTS = {};\n", serde_json::Value::from(texts));
     files.insert("search.js".into(), texts.into_bytes());
-    // What the figures show, for readers who point at it, if it is not too long.
-    let points = input.figures.iter().map(|figure| {
-        let short = figure.data.iter().filter(|file| file.rows.len() < 2000);
-        (figure.id.as_str(), short.map(DataFile::to_csv).collect::<Vec<_>>())
-    });
-    let points = serde_json::json!(points.collect::<BTreeMap<_, _>>());
     files.insert("points.js".into(), format!("POINTS = {points};\n").into_bytes());
     for name in ["report.css", "report.js"] {
         files.insert(name.into(), input.templates.text(name)?.as_bytes().to_vec());
     }
     if let Some(lab) = input.lab {
-        files.insert(LAB.into(), lab.as_bytes().to_vec());
+        files.insert("lab.js".into(), lab.as_bytes().to_vec());
     }
     Ok(opened)
+}
+
+/// Returns what the figures show, for readers who point at it, if it is not too long.
+fn points_of(figures: &[Figure]) -> serde_json::Value {
+    let points = figures.iter().map(|figure| {
+        let short = figure.data.iter().filter(|file| file.rows.len() < 2000);
+        (figure.id.as_str(), short.map(DataFile::to_csv).collect::<Vec<_>>())
+    });
+    serde_json::json!(points.collect::<BTreeMap<_, _>>())
 }
 
 /// Returns a figure's picture for a dark page, in the colours of the style sheet, if it has any.
@@ -286,13 +282,15 @@ pub fn files_of(figure: &Figure, license: &str) -> Files {
 /// Refuses two files of data with one name.
 fn check_files(tables: &[&Table], figures: &[Figure]) -> Result<(), Error> {
     let mut names = Names::default();
-    let of_tables =
-        tables.iter().map(|table| (DataFile::file_name(table.name()), table.place().to_string()));
-    let of_figures = figures.iter().flat_map(|figure| {
-        figure.data.iter().map(|file| (file.name.clone(), format!("the figure {}", figure.id)))
-    });
-    for (name, place) in of_tables.chain(of_figures) {
-        names.add(&name, &place).map_err(|problem| Error::Template(format!("data: {problem}")))?;
+    let mut add = |name: &str, place: &str| {
+        names.add(name, place).map_err(|problem| Error::Message(format!("data: {problem}")))
+    };
+    for table in tables {
+        add(&DataFile::file_name(table.name()), &table.place())?;
+    }
+    for figure in figures {
+        let place = format!("the figure {}", figure.id);
+        figure.data.iter().try_for_each(|file| add(&file.name, &place))?;
     }
     Ok(())
 }
@@ -318,48 +316,7 @@ fn check_links(part: &Part<'_>, labels: &Labels, files: &Files, input: &Input<'_
     let error = |(to, place): (&str, Place)| {
         let problem =
             format!("a link to {to}: there is no such file or place; correct or remove it");
-        Error::unknown(Thing::Link(to.into()), problem, committed()).with_place(place)
+        Error::unknown(Thing::Link, to, &problem, committed()).with_place(place)
     };
-    part.places.links().filter(|(to, _)| !is_good(to)).map(error).collect()
-}
-
-/// Adds alternative texts, data and code to the figures of a document, and makes links to files of
-/// the project relative to the folder of the report; returns the names of the figures, and errors.
-fn illustrate(blocks: &mut [Block], input: &Input<'_>) -> (Vec<String>, Vec<Error>) {
-    let (mut names, mut errors) = (Vec::new(), Vec::new());
-    for block in blocks.iter_mut() {
-        let Block::Figure { files, alt, origin, .. } = block else { continue };
-        let path = |figure: &Figure| format!("figures/{}", figure.names()[0]);
-        let Some(figure) = input.figures.iter().find(|figure| path(figure) == files[0]) else {
-            let problem = format!(
-                "there is no figure {}; use figures/NAME.svg of a figure of the paper; a file becomes one by Figure::picture",
-                one_line(&files[0], 200)
-            );
-            let paths: Vec<String> = input.figures.iter().map(path).collect();
-            let paths = paths.iter().map(String::as_str);
-            errors.push(Error::unknown(Thing::Picture(files[0].clone()), problem, paths));
-            continue;
-        };
-        *files = figure.names();
-        *alt = figure.description.text.clone();
-        let to_text = |to_text: &str| Inline::Text(to_text.into());
-        let data: Vec<String> =
-            figure.data.iter().map(|file| format!("data/{}", file.name)).collect();
-        let code = input.project.sources.file(&figure.source).map(|file| format!("../{file}"));
-        for (name, files) in [("Data: ", data), ("Code: ", code.into_iter().collect())] {
-            if !files.is_empty() {
-                let blank = if origin.is_empty() { "" } else { " " };
-                origin.push(to_text(&format!("{blank}{name}")));
-                origin.extend(links(&files));
-                origin.push(to_text("."));
-            }
-        }
-        names.push(figure.id.clone());
-    }
-    let linked = |inline| match inline {
-        Inline::Code(item) if item.contains("::") => link_to_line(&item, input.project),
-        other => other,
-    };
-    document::rewrite(blocks, &mut |inline| document::relative_link(linked(inline), input.top));
-    (names, errors)
+    part.places.named(Thing::Link).filter(|(to, _)| !is_good(to)).map(error).collect()
 }

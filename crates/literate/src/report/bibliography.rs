@@ -1,7 +1,7 @@
 //! Reads `references.bib` into the list of references and the labels of citations.
 
 use super::bibtex;
-use super::document::{Inline, Reference, to_plain_text, words_and_maths};
+use super::document::{Inline, Reference, push, to_plain_text, words_and_maths};
 use super::error::Error;
 use super::latex;
 use super::people::{citation_names, list_authors, list_editors, parse_people};
@@ -30,7 +30,7 @@ impl Library {
                 _ => "is a brace or a comma missing before?",
             };
             let problem = format!("{}; {remedy}", error.kind);
-            Error::Template(problem).with_place(place(error.span.start))
+            Error::Message(problem).with_place(place(error.span.start))
         })?;
         let (mut references, mut faults) = (Vec::new(), BTreeMap::new());
         let parents = bibtex::parents(&entries);
@@ -53,7 +53,7 @@ impl Library {
     /// Returns what is wrong with the entry that has a key, or `None` if there is no such fault.
     pub fn fault(&self, key: &str) -> Option<Error> {
         let (place, problem) = self.faults.get(key)?;
-        Some(Error::Template(format!("{key} {problem}")).with_place(place.clone()))
+        Some(Error::Message(format!("{key} {problem}")).with_place(place.clone()))
     }
 
     /// Returns a line for each entry that is wrong, for reports that cite none of them.
@@ -110,12 +110,16 @@ fn reference(entry: &Entry, own: &Entry) -> Result<Reference, String> {
     let (authors, editors) = (parse_people(entry, "author")?, parse_people(entry, "editor")?);
     let people = [&authors, &editors].into_iter().find(|group| !group.is_empty());
     let people = people.ok_or("lacks its author or editor; give it")?;
-    let title = [
-        required(&["title", "booktitle"])?,
-        enclosed(": ", field("subtitle")?, ""),
-        enclosed(" ", field("titleaddon")?, ""),
-    ];
-    let title = merge_words(title.concat());
+    let subtitle = enclosed(": ", field("subtitle")?, "");
+    let mut title = required(&["title", "booktitle"])?;
+    // A title with a subtitle is emphasised as a whole.
+    for inline in subtitle.into_iter().chain(enclosed(" ", field("titleaddon")?, "")) {
+        push(&mut title, inline);
+    }
+    let kind = |name: &str, words: &str| {
+        let kind = to_plain_text(&field("type")?);
+        Ok::<_, String>(if kind.is_empty() || kind == name { words.into() } else { kind })
+    };
     let publisher = || first_of(&["publisher", "organization", "howpublished"]);
     let sentences = match entry.entry_type {
         EntryType::Article => {
@@ -144,15 +148,12 @@ fn reference(entry: &Entry, own: &Entry) -> Result<Reference, String> {
             vec![title, enclosed(&format!("In {editors}"), within, ""), publisher()?]
         }
         EntryType::TechReport | EntryType::Report => {
-            let kind = to_plain_text(&field("type")?);
-            let kind = if ["", "techreport"].contains(&&*kind) { "Report" } else { &kind };
+            let kind = kind("techreport", "Report")?;
             let number = enclosed(&format!(" ({kind} No. "), field("number")?, ")");
             vec![[emphasised(title), number].concat(), required(&["institution", "publisher"])?]
         }
         EntryType::PhdThesis => {
-            let kind = to_plain_text(&field("type")?);
-            let kind =
-                if ["", "phdthesis"].contains(&&*kind) { "Doctoral dissertation" } else { &kind };
+            let kind = kind("phdthesis", "Doctoral dissertation")?;
             let title = enclosed("", emphasised(title), &format!(" [{kind}]"));
             vec![title, required(&["school", "institution"])?]
         }
@@ -174,39 +175,24 @@ fn reference(entry: &Entry, own: &Entry) -> Result<Reference, String> {
         let link = Inline::Link { to: to.clone(), words: vec![Inline::Text(to)] };
         rest.extend(enclosed(" ", vec![link], ""));
     }
-    if authors.is_empty() {
-        field("editor")?;
-    }
+    // `Itor, E. (Ed.).`
+    let editors = || {
+        let kind = if people.len() > 1 { "Eds." } else { "Ed." };
+        field("editor").map(|_| format!("{} ({kind}).", list_authors(people)))
+    };
+    let listed = if authors.is_empty() { editors()? } else { list_authors(people) };
     bibtex::refuse_left_out(own, &read_fields.borrow())?;
     let [year, date] = [field("year")?, field("date")?].map(|inlines| to_plain_text(&inlines));
     let reference = Reference {
         key: entry.key.clone(),
         names: citation_names(people),
         year: bibtex::parse_year(&year, &date)?,
-        authors: if authors.is_empty() { list_as_editors(people) } else { list_authors(people) },
+        authors: listed,
         rest,
     };
     let unknown = tex::unknown(&latex::inlines(&reference.to_inlines())).pop_first();
     let problem = "is not known in LaTeX; write it in Latin letters";
     unknown.map_or(Ok(reference), |c| Err(format!("has the character {c:?}, which {problem}")))
-}
-
-/// Joins neighbouring words, so that a title with a subtitle is emphasised as a whole.
-fn merge_words(inlines: Vec<Inline>) -> Vec<Inline> {
-    let mut joined: Vec<Inline> = Vec::new();
-    for piece in inlines {
-        match (joined.last_mut(), piece) {
-            (Some(Inline::Text(before)), Inline::Text(words)) => before.push_str(&words),
-            (_, piece) => joined.push(piece),
-        }
-    }
-    joined
-}
-
-/// Lists the editors of a work without authors: `Itor, E. (Ed.).`
-fn list_as_editors(people: &[biblatex::Person]) -> String {
-    let kind = if people.len() > 1 { "Eds." } else { "Ed." };
-    format!("{} ({kind}).", list_authors(people))
 }
 
 fn enclosed(before: &str, inner: Vec<Inline>, after: &str) -> Vec<Inline> {
@@ -219,8 +205,7 @@ fn enclosed(before: &str, inner: Vec<Inline>, after: &str) -> Vec<Inline> {
     inlines
 }
 
-/// Reads a field into words and formulas, which are none if it is absent; macros other than accents
-/// are refused.
+/// Reads a field, which may be absent; macros other than accents are refused.
 fn read_field(entry: &Entry, name: &str) -> Result<Vec<Inline>, String> {
     let verbatim = entry.get(name).unwrap_or_default().format_verbatim();
     let mut inlines = words_and_maths(verbatim.trim());
@@ -236,8 +221,7 @@ fn read_field(entry: &Entry, name: &str) -> Result<Vec<Inline>, String> {
     Ok(inlines)
 }
 
-/// Sets the quotation marks that a text types as ``…'', `…' or "…"; single and double ones may be
-/// open from before.
+/// Sets the quotation marks typed as ``…'', `…' or "…"; those of either kind may be open before.
 fn with_quotes(words: &str, open: &mut [bool; 2]) -> String {
     let words = words.replace("``", "“").replace("''", "”");
     let ends = |offset: usize| !words[offset + 1..].starts_with(char::is_alphanumeric);
@@ -277,8 +261,7 @@ fn ordinal(edition: Vec<Inline>) -> Vec<Inline> {
     enclosed("", edition, ending)
 }
 
-/// Returns the address at which the work can be read: its DOI in any spelling, its URL, or its
-/// place in arXiv.
+/// Returns where the work can be read: its DOI in any spelling, its URL, or its place in arXiv.
 fn address(entry: &Entry) -> Result<Option<String>, String> {
     // These fields keep their backslashes.
     let verbatim_field = |name| {

@@ -5,8 +5,7 @@ use biblatex::{Bibliography, ChunksExt, Entry, ParseError, ParseErrorKind};
 use biblatex::{RawBibliography, RawChunk};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Groups of fields of which an entry needs one: an entry that has one of a group inherits none of
-/// it.
+/// Groups of fields: an entry that has one of a group inherits none of it.
 const ALIKE: [&[&str]; 4] = [
     &["date", "month", "year"],
     &["doi", "eprint", "url"],
@@ -14,12 +13,10 @@ const ALIKE: [&[&str]; 4] = [
     &["institution", "school"],
 ];
 
-/// The names under which `xdata` and `crossref` are kept, so that the crate does not follow them:
-/// in a circle it would not end.
+/// How `xdata` and `crossref` are kept, so that the crate does not follow them in a circle.
 const PARENTS: [&str; 2] = [" xdata", " crossref"];
 
-/// Reads the entries, and where each of them begins, by their keys. An abbreviation may be made of
-/// those that stand before it.
+/// Reads the entries, and where each begins. An abbreviation may be made of those above it.
 pub fn parse_entries(bibtex: &str) -> Result<(Bibliography, BTreeMap<String, usize>), ParseError> {
     let bibtex = with_braced_values(bibtex);
     let mut raw = RawBibliography::parse(&bibtex)?;
@@ -98,9 +95,8 @@ pub fn parents(entries: &Bibliography) -> Vec<String> {
     entries.iter().flat_map(keys).collect()
 }
 
-/// Returns an entry with the fields that it inherits from its parents. The keys of the entries that
-/// inherit from it stand in `below`, by which a circle is found. The error is a message that
-/// follows its key.
+/// Returns an entry with the fields that it inherits, or a message that follows its key. The keys
+/// of the entries that inherit from it stand in `below`, by which a circle is found.
 pub fn completed(entry: &Entry, entries: &Bibliography, below: &[&str]) -> Result<Entry, String> {
     let (mut complete, keys_below) = (entry.clone(), [below, &[&entry.key]].concat());
     for field in PARENTS {
@@ -150,13 +146,9 @@ pub fn refuse_left_out(entry: &Entry, read_fields: &BTreeSet<String>) -> Result<
             || NOT_SHOWN.split_whitespace().any(|known| known == name)
             || PARENTS.contains(&name)
     };
-    match entry.fields.keys().find(|name| !is_known(name)) {
-        Some(name) => {
-            let kind = &entry.entry_type;
-            Err(format!("has the field {name}, which a @{kind} does not show; put it in its note"))
-        }
-        None => Ok(()),
-    }
+    let Some(name) = entry.fields.keys().find(|name| !is_known(name)) else { return Ok(()) };
+    let kind = &entry.entry_type;
+    Err(format!("has the field {name}, which a @{kind} does not show; put it in its note"))
 }
 
 /// Returns the year, or that of a date: `2011`, `2011-03`, `2011-03-01`, or a range with `/`.

@@ -298,8 +298,14 @@ fn kind_in_words(value: &Value) -> String {
 /// Writes each parameter, the seed among them: `runs: 3`, `seed: 7`. A nested field has both names;
 /// one with several values lists them, or the first and the last of more than eight.
 fn settings(parameters: &Json) -> Vec<String> {
-    let mut settings = Vec::new();
-    collect("", parameters, &mut settings);
+    let mut settings: Vec<(String, Vec<String>)> = Vec::new();
+    for (name, value) in leaves("", parameters) {
+        match settings.iter_mut().find(|(known, _)| *known == name) {
+            Some((_, values)) if values.contains(&value) => (),
+            Some((_, values)) => values.push(value),
+            None => settings.push((name, vec![value])),
+        }
+    }
     let listed = |(name, values): (String, Vec<String>)| match values.as_slice() {
         [first, .., last] if values.len() > 8 => {
             format!("{name}: {} from {first} to {last}", values.len())
@@ -309,24 +315,19 @@ fn settings(parameters: &Json) -> Vec<String> {
     settings.into_iter().map(listed).collect()
 }
 
-fn collect(name: &str, value: &Json, settings: &mut Vec<(String, Vec<String>)>) {
-    let written = match value {
-        Json::Null => return,
-        Json::Array(list) => return list.iter().for_each(|one| collect(name, one, settings)),
-        Json::Object(fields) => {
-            for (field, value) in fields {
-                let whole = format!("{name} {}", field.replace('_', " "));
-                collect(whole.trim_start(), value, settings);
-            }
-            return;
-        }
-        Json::String(text) => text.clone(),
-        Json::Number(number) if number.is_f64() => number.as_f64().unwrap_or(f64::NAN).to_string(),
-        other => other.to_string(),
+/// Returns the numbers and words in JSON, each with the names of its fields.
+fn leaves(name: &str, value: &Json) -> Vec<(String, String)> {
+    let of_field = |(field, value): (&String, &Json)| {
+        leaves(format!("{name} {}", field.replace('_', " ")).trim_start(), value)
     };
-    match settings.iter_mut().find(|(known, _)| known == name) {
-        Some((_, values)) if values.contains(&written) => (),
-        Some((_, values)) => values.push(written),
-        None => settings.push((name.into(), vec![written])),
+    match value {
+        Json::Null => Vec::new(),
+        Json::Array(list) => list.iter().flat_map(|one| leaves(name, one)).collect(),
+        Json::Object(fields) => fields.iter().flat_map(of_field).collect(),
+        Json::String(text) => vec![(name.into(), text.clone())],
+        Json::Number(number) if number.is_f64() => {
+            vec![(name.into(), number.as_f64().unwrap_or(f64::NAN).to_string())]
+        }
+        other => vec![(name.into(), other.to_string())],
     }
 }

@@ -1,8 +1,8 @@
 //! Finds hard-coded numbers in texts that code gives to figures, notes, tables and checks: a string
 //! of the program, or of the texts of its checks, has the number and the words around it.
 
+use super::assemble::Input;
 use super::error::Error;
-use super::input::Input;
 use super::lint::{self, Declared};
 use super::values::Number;
 use crate::claims::Kind;
@@ -20,15 +20,10 @@ struct Typed {
 }
 
 /// Refuses hard-coded numbers in what code gives, by the places of its strings.
-pub fn check(input: &Input<'_>, declared: &Declared) -> Vec<Error> {
-    let texts = input.templates.iter().filter(|(path, _)| path.starts_with("claims/"));
-    let texts = texts.map(|(path, text)| (input.templates.place(path), text));
-    let is_code = |path: &str| path.ends_with(".rs") && !path.contains("/tests");
-    let code = input.project.sources.files.iter().filter(|(path, _)| is_code(path));
-    let code = code.map(|(path, text)| (path.to_string(), *text));
+pub fn check(input: &Input<'_>) -> Vec<Error> {
     let mut numbered = Vec::new();
     for (text, file, with_words) in given(input) {
-        let mut numerals = lint::find_numbers(&text, 0..text.len(), declared);
+        let mut numerals = lint::find_numbers(&text, 0..text.len(), input.declared);
         let is_meant = |numeral: &str| with_words || numeral.starts_with(char::is_numeric);
         numerals.retain(|(at, one)| is_meant(one) && is_number(&text, *at, one));
         if !numerals.is_empty() {
@@ -37,10 +32,14 @@ pub fn check(input: &Input<'_>, declared: &Declared) -> Vec<Error> {
     }
     let meant = numbered.iter().flat_map(|(.., numerals)| numerals).map(|(_, one)| one.as_str());
     let meant: HashSet<&str> = meant.collect();
+    let texts = input.templates.iter().filter(|(path, _)| path.starts_with("claims/"));
+    let texts = texts.map(|(path, text)| (input.templates.place(path), text));
+    let is_code = |path: &str| path.ends_with(".rs") && !path.contains("/tests");
+    let code = input.project.sources.files.iter().filter(|(path, _)| is_code(path));
+    let code = code.map(|(path, text)| (path.to_string(), *text));
     let files: Vec<(String, &str)> = code.chain(texts).collect();
-    let files = files.par_iter().with_max_len(1);
-    let typed = files.flat_map_iter(|(path, text)| typed(path, text, &meant));
-    let typed: Vec<Typed> = typed.collect();
+    let read = |(path, text): &(String, &str)| typed(path, text, &meant);
+    let typed: Vec<Typed> = files.par_iter().with_max_len(1).flat_map_iter(read).collect();
     let mut by_numeral: HashMap<&str, Vec<&Typed>> = HashMap::new();
     for typed in &typed {
         for numeral in &typed.numerals {
@@ -57,14 +56,13 @@ pub fn check(input: &Input<'_>, declared: &Declared) -> Vec<Error> {
             let typed = typed.find(|typed| typed.cover(text, *at));
             let place = typed.map(|typed| &*typed.place).or(quoted.map(|(path, _)| *path));
             let place = place.map(|place| format!("{place}: {:?}", one_line(text, 60)));
-            errors.extend(place.map(|place| Error::HardCoded(numeral.clone()).with_place(place)));
+            errors.extend(place.map(|place| Error::hard_coded(numeral).with_place(place)));
         }
     }
     errors
 }
 
-/// Returns what stands between quotation marks and braces, in strings and elsewhere, with letters
-/// and one of the numbers that are meant.
+/// Returns what stands between quotation marks and braces, with letters and a number that is meant.
 fn typed(path: &str, code: &str, meant: &HashSet<&str>) -> Vec<Typed> {
     let code = code.split("#[cfg(test)]\nmod ").next().unwrap_or_default();
     let wants_words = meant.iter().any(|word| word.starts_with(char::is_alphabetic));

@@ -4,7 +4,6 @@
 //! references, and each format has one writer that walks it. Writers decide on markup only.
 
 use super::edition::Document;
-use super::error::Error;
 use super::tex;
 use crate::print::Printed;
 use pulldown_cmark::Alignment;
@@ -13,16 +12,10 @@ use pulldown_cmark::Alignment;
 #[derive(Clone, Debug, PartialEq)]
 pub enum Block {
     /// A heading; level 1 is the title. It has no number, nor have unnumbered sections.
-    Heading {
-        level: u8,
-        number: Option<String>,
-        id: Option<String>,
-        text: Vec<Inline>,
-    },
+    Heading { level: u8, number: Option<String>, id: Option<String>, text: Vec<Inline> },
     /// A paragraph; displayed equations stand inside it.
     Paragraph(Vec<Inline>),
-    /// A figure, with the names of its files for pages and for LaTeX (the path in the prose until
-    /// the figure is found); the origin says where its data and code are.
+    /// A figure, with its files for pages and for LaTeX; the origin leads to its data and code.
     Figure {
         id: String,
         number: String,
@@ -32,17 +25,14 @@ pub enum Block {
         origin: Vec<Inline>,
         caption: Vec<Inline>,
     },
+    /// A table, which has a number if it has a caption.
     Table(Table),
     /// A list; an ordered one has the number with which it starts.
-    List {
-        start: Option<u64>,
-        items: Vec<Vec<Block>>,
-    },
+    List { start: Option<u64>, items: Vec<Vec<Block>> },
+    /// A quotation.
     Quote(Vec<Block>),
-    Code {
-        language: String,
-        code: String,
-    },
+    /// A block of code.
+    Code { language: String, code: String },
     /// A piece of the source: the path of the item, its file, and a link to that.
     Listing {
         id: String,
@@ -54,10 +44,7 @@ pub enum Block {
         code: String,
     },
     /// A function that readers of a page can run, by its name.
-    Lab {
-        lab: String,
-        caption: Vec<Inline>,
-    },
+    Lab { lab: String, caption: Vec<Inline> },
     /// The place of the list of references, which `Labels::resolve` fills.
     Bibliography(Vec<Reference>),
 }
@@ -96,45 +83,31 @@ impl Reference {
 pub enum Inline {
     /// Words; no markup inside.
     Text(String),
+    /// The end of a line in the prose.
     Soft,
+    /// Code within a line.
     Code(String),
+    /// Slanted words.
     Emphasis(Vec<Inline>),
+    /// Bold words.
     Strong(Vec<Inline>),
     /// Small and raised, as the number of a note: verdicts after a statement.
     Raised(Vec<Inline>),
+    /// A formula within a line.
     Maths(Formula),
     /// A displayed equation without its tag; one without an id has no number.
-    Display {
-        formula: Formula,
-        id: Option<String>,
-        number: String,
-    },
-    Value {
-        id: String,
-        printed: Printed,
-    },
+    Display { formula: Formula, id: Option<String>, number: String },
+    /// A value, which leads to its card.
+    Value { id: String, printed: Printed },
     /// A link out of the report, or to a file next to it.
-    Link {
-        to: String,
-        words: Vec<Inline>,
-    },
+    Link { to: String, words: Vec<Inline> },
     /// References `[@fig:3; @fig:8]` and citations `[@rice1945]`, or one of them without brackets
     /// in a sentence, until they are resolved.
-    Unresolved {
-        ids: Vec<String>,
-        in_sentence: bool,
-    },
+    Unresolved { ids: Vec<String>, in_sentence: bool },
     /// A resolved reference to `fig:3` or `ref:rice1945`, and the other document that has it.
-    Reference {
-        to: String,
-        within: Option<Document>,
-        label: String,
-    },
+    Reference { to: String, within: Option<Document>, label: String },
     /// A place that can be referred to, `[!claim:rise]`; shows its number.
-    Anchor {
-        id: String,
-        number: String,
-    },
+    Anchor { id: String, number: String },
 }
 
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -167,6 +140,14 @@ impl From<&str> for Formula {
     }
 }
 
+/// Adds a piece of running text; words that touch are one text.
+pub fn push(inlines: &mut Vec<Inline>, next: Inline) {
+    match (inlines.last_mut(), next) {
+        (Some(Inline::Text(before)), Inline::Text(words)) => before.push_str(&words),
+        (_, next) => inlines.push(next),
+    }
+}
+
 /// Returns a printed value as text, with its formulas, or as a formula where it has a power of ten.
 pub fn to_inlines(printed: &Printed) -> Vec<Inline> {
     let numeral = match printed {
@@ -187,9 +168,8 @@ pub fn to_inlines(printed: &Printed) -> Vec<Inline> {
     }
 }
 
-/// Returns whether words from data are written with formulas, `at $h = 0.3$`: each of their dollar
-/// signs begins one behind a blank or ends one before no letter. Otherwise, as in `^a$|^b$`, they
-/// are signs.
+/// Returns whether words from data have formulas, `at $h = 0.3$`: each of their dollar signs begins
+/// one behind a blank or ends one before no letter. Otherwise, `^a$|^b$`, they are signs.
 pub fn has_formulas(words: &str) -> bool {
     let parts: Vec<&str> = words.split('$').collect();
     let is_formula = |index: usize| {
@@ -228,16 +208,15 @@ pub fn words_and_maths(words: &str) -> Vec<Inline> {
     inlines
 }
 
-pub fn title(blocks: &[Block]) -> Result<&[Inline], Error> {
-    let title = blocks.iter().find_map(|block| match block {
+/// Returns the title, which the parser and `assemble` see to.
+pub fn title(blocks: &[Block]) -> Option<&[Inline]> {
+    blocks.iter().find_map(|block| match block {
         Block::Heading { level: 1, text, .. } => Some(text.as_slice()),
         _ => None,
-    });
-    title.ok_or_else(|| Error::Markup("a report begins with its title, `# Words`".into()))
+    })
 }
 
-/// Returns whether a block is the heading of the abstract, which extends to the next heading or
-/// figure.
+/// Returns whether the abstract begins, which extends to the next heading or figure.
 pub fn is_abstract(block: &Block) -> bool {
     matches!(block, Block::Heading { text, .. } if to_plain_text(text) == "Abstract")
 }
@@ -286,8 +265,7 @@ pub fn place(id: &str) -> String {
     id.chars().map(escaped).collect()
 }
 
-/// Returns whether a sentence continues from one paragraph to the next, with or after a displayed
-/// equation.
+/// Returns whether a sentence continues from a paragraph to the next, over a displayed equation.
 pub fn goes_on(before: &Block, next: &Block) -> bool {
     let (Block::Paragraph(before), Block::Paragraph(next)) = (before, next) else { return false };
     match (before.as_slice(), next.as_slice()) {

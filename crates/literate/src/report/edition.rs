@@ -59,9 +59,8 @@ impl Edition {
         if document.print.is_some() { parts } else { String::new() }
     }
 
-    /// Writes the authors as BibTeX takes them. A name that ends in a word without a capital, as
-    /// that of a group, stands in braces, or BibTeX would take its last word for the name of a
-    /// family.
+    /// Writes the authors for BibTeX. A name that ends in a word without a capital, as that of a
+    /// group, stands in braces: its last word is no family.
     pub(super) fn bibtex_authors(&self) -> String {
         let author = |(name, _): &(&str, _)| match name.rsplit(char::is_whitespace).next() {
             Some(last) if last.starts_with(char::is_lowercase) => format!("{{{name}}}"),
@@ -102,8 +101,7 @@ impl Document {
         repeats: false,
     };
 
-    /// Returns the paths of its prose in the templates, in their order; there are none if it has no
-    /// file.
+    /// Returns the paths of its prose in the templates, in their order, if any.
     pub fn files<'a>(&self, templates: &'a Templates) -> Vec<&'a str> {
         let (one, folder) = (format!("{}.md", self.prose), format!("{}/", self.prose));
         let is_prose =

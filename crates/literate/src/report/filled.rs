@@ -1,18 +1,19 @@
-//! Keeps where each piece of the filled prose stands in the templates.
+//! Keeps where each piece of the filled prose stands in the templates, and tells what people typed
+//! or calculated in their tags from what was computed.
 
 use super::error::{Error, Thing};
+use super::lint::{Declared, find_numbers};
 use super::mark::{self, Piece, framed, pieces};
-use super::typed::{self, Names};
 use super::values::ValueRegistry;
 use crate::input::Place;
+use std::collections::BTreeSet;
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Filled {
     /// The text; values are marks in it.
     pub text: String,
-    templates: Vec<(String, String)>,
-    /// Of each template the names of what was typed in its tags.
-    typed: Vec<Names>,
+    /// Paths and texts, and the names of what was typed in their tags.
+    templates: Vec<(String, String, BTreeSet<String>)>,
     origins: Vec<Origin>,
 }
 
@@ -32,8 +33,7 @@ impl Filled {
             self.text += "\n\n";
         }
         let template = self.templates.len();
-        self.templates.push((path.into(), text.into()));
-        self.typed.push(typed::names(text));
+        self.templates.push((path.into(), text.into(), typed_names(text)));
         let here = |start, offset, is_tag| Origin { start, template, offset, is_tag };
         self.origins.push(here(self.text.len(), 0, false));
         for piece in pieces(filled) {
@@ -58,7 +58,7 @@ impl Filled {
     /// Returns the place in the template of an offset in the text.
     pub fn place(&self, offset: usize) -> Place {
         let origin = self.origin(offset);
-        let (path, text) = &self.templates[origin.template];
+        let (path, text, _) = &self.templates[origin.template];
         let beyond = if origin.is_tag { 0 } else { offset - origin.start };
         Place::in_text(path.clone(), text, (origin.offset + beyond).min(text.len()))
     }
@@ -66,10 +66,55 @@ impl Filled {
     /// Returns whether people typed what stands at an offset, as text or within a tag.
     pub fn is_typed(&self, offset: usize) -> bool {
         let Origin { template, offset, is_tag, .. } = self.origin(offset);
-        let inside = self.templates[template].1[offset..].trim_start_matches('«');
-        let inside = inside.split('»').next().unwrap_or_default();
-        !is_tag || typed::is_typed(inside, &self.typed[template])
+        let (_, text, names) = &self.templates[template];
+        let inside = text[offset..].trim_start_matches('«').split('»').next();
+        !is_tag || is_typed(inside.unwrap_or_default(), names)
     }
+}
+
+/// Returns the names for what was typed or calculated: `n` in `for n in [13.5]`.
+fn typed_names(template: &str) -> BTreeSet<String> {
+    let mut typed: BTreeSet<String> = ["raw", "loop", "range"].map(String::from).into();
+    for tag in template.split("<%").skip(1).filter_map(|tag| tag.split("%>").next()) {
+        let tag = tag.trim_matches(|c: char| c == '-' || c.is_whitespace());
+        let (word, rest) = tag.split_once(' ').unwrap_or_default();
+        let given = match word {
+            "set" | "set_global" => rest.split_once('='),
+            "for" => rest.split_once(" in "),
+            _ => None,
+        };
+        if let Some((names, _)) = given.filter(|(_, expression)| is_typed(expression, &typed)) {
+            typed.extend(names.split(',').map(|name| name.trim().into()));
+        }
+    }
+    typed
+}
+
+/// Returns whether an expression is more than a name with filters: it begins with a number, words
+/// or a typed name, calculates, or has a number in it, which names of rows may have.
+fn is_typed(expression: &str, typed: &BTreeSet<String>) -> bool {
+    let expression = expression.trim_start_matches(['-', ' ', '\n']);
+    let is_name = |c: char| c.is_alphanumeric() || c == '_';
+    let name = expression.split(|c| !is_name(c)).next().unwrap_or_default();
+    if name == "literal" {
+        return false;
+    }
+    let (mut bare, mut rows) = (String::new(), 0);
+    for c in expression.chars() {
+        rows -= i32::from(c == ']');
+        bare.extend((rows == 0).then_some(c));
+        rows += i32::from(c == '[');
+    }
+    let mut quoted = false;
+    let has_numbers = bare.split(['"', '\'', '`']).any(|part| {
+        quoted = !quoted;
+        let numbers = find_numbers(part, 0..part.len(), &Declared::default());
+        // `nth(n=1)` chooses.
+        let chooses = |offset: usize| quoted && part[..offset].ends_with(['=', '.']);
+        quoted && part.contains(['*', '/', '+', '%'])
+            || numbers.iter().any(|(offset, _)| !chooses(*offset))
+    });
+    !name.starts_with(char::is_alphabetic) || typed.contains(name) || has_numbers
 }
 
 /// The offsets of the things that errors can name.
@@ -77,7 +122,7 @@ impl Filled {
 pub struct Places<'a> {
     filled: &'a Filled,
     values: &'a ValueRegistry,
-    offsets: Vec<(Thing, usize)>,
+    offsets: Vec<(Thing, String, usize)>,
 }
 
 impl<'a> Places<'a> {
@@ -85,33 +130,20 @@ impl<'a> Places<'a> {
         Places { filled, values, offsets: Vec::new() }
     }
 
-    pub fn add(&mut self, thing: Thing, offset: usize) {
-        self.offsets.push((thing, offset));
+    pub fn add(&mut self, thing: Thing, name: &str, offset: usize) {
+        self.offsets.push((thing, name.into(), offset));
     }
 
-    pub fn links(&self) -> impl Iterator<Item = (&str, Place)> {
-        self.offsets.iter().filter_map(|(thing, offset)| match thing {
-            Thing::Link(to) => Some((to.as_str(), self.filled.place(*offset))),
-            _ => None,
-        })
-    }
-
-    pub fn ids(&self) -> impl Iterator<Item = &str> {
-        self.offsets.iter().filter_map(|(thing, _)| match thing {
-            Thing::Id(id) => Some(id.as_str()),
-            _ => None,
-        })
+    /// Returns the names and the places of all things of one kind.
+    pub fn named(&self, kind: Thing) -> impl Iterator<Item = (&str, Place)> {
+        let of_kind = self.offsets.iter().filter(move |(thing, ..)| *thing == kind);
+        of_kind.map(|(_, name, offset)| (name.as_str(), self.filled.place(*offset)))
     }
 
     /// Adds to an error the place of what it names; of two things with one id this is the second.
     pub fn locate(&self, error: Error) -> Error {
         let offset = match &error {
-            Error::Several(_) => {
-                let errors = error.into_list().into_iter().map(|error| self.locate(error));
-                return Error::Several(errors.collect());
-            }
-            Error::Named { thing, .. } => self.offset(thing),
-            Error::Maths { tex, .. } => self.offset(&Thing::Formula(tex.clone())),
+            Error::Named { thing, name, .. } => self.offset(*thing, name),
             Error::NoLatex(c) => self.filled.text.find(*c).or_else(|| self.value_with(*c)),
             _ => None,
         };
@@ -131,7 +163,8 @@ impl<'a> Places<'a> {
         values.find_map(|(id, _, at)| words(&id)?.contains(c).then_some(at.start))
     }
 
-    fn offset(&self, thing: &Thing) -> Option<usize> {
-        self.offsets.iter().rev().find(|(other, _)| other == thing).map(|(_, offset)| *offset)
+    fn offset(&self, thing: Thing, name: &str) -> Option<usize> {
+        let mut offsets = self.offsets.iter().rev();
+        offsets.find(|(kind, of, _)| *kind == thing && of == name).map(|(.., offset)| *offset)
     }
 }

@@ -19,25 +19,19 @@ pub struct Filler {
     tera: Tera,
     templates: Templates,
     pub declared: Declared,
-    context: Context,
+    /// Values and tables, and what is no value: the rows of the claims, the list of figures.
+    pub context: Context,
     /// Values and tables, as the context has them.
     names: Json,
 }
 
 impl Filler {
-    /// Sets Tera up with all `.md`, `.tex` and `.html` files, and with values: `v.name` and
-    /// `group.name` are marks, `raw.name` and `raw.group.name` plain numbers. Cells of tables are
-    /// `table["row"].column`, their keys `keys.table.key` and `keys.table.rows`.
-    pub fn new(templates: &Templates, values: &ValueRegistry) -> Result<Self, Error> {
+    /// Sets Tera up with all `.md`, `.tex` and `.html` files.
+    pub fn new(templates: &Templates) -> Result<Self, Error> {
         let declared = Declared::read(templates.text("literals.toml")?)
-            .map_err(|error| Error::Template(templates.place(&error.to_string())))?;
-        // Tables for figures alone are long, and no template needs them.
-        let named = |table: &&Table| templates.iter().any(|(_, text)| text.contains(table.name()));
-        let tables: Vec<&Table> = values.tables().filter(named).collect();
-        let cells = tables.iter().copied().flat_map(Table::cells);
-        let empty = values.iter().chain(cells).filter(|value| value.number == Number::None);
+            .map_err(|error| Error::Message(templates.place(&error.to_string())))?;
         let mut tera = Tera::new();
-        register(&mut tera, empty.map(|value| value.id.clone()).collect());
+        register(&mut tera);
         let delimiters = Delimiters {
             block_start: "<%".into(),
             block_end: "%>".into(),
@@ -55,28 +49,46 @@ impl Filler {
         }
         let set = tera.set_delimiters(delimiters);
         tera.autoescape_on(Vec::<&str>::new());
-        let sources = templates.iter().filter_map(source);
-        let parse = || set.and_then(|()| tera.add_raw_templates(sources));
-        let (names, added) = rayon::join(|| context_names(values, &tables), parse);
-        let mut context = Context::new();
-        for (group, names) in names.as_object().into_iter().flatten() {
-            context.insert(group.clone(), names);
-        }
-        let filler = Filler { tera, templates: templates.clone(), declared, context, names };
+        let sources = templates.iter().filter_map(|(path, text)| match path.rsplit_once('.')?.1 {
+            "md" => Some((path, with_places(text))),
+            "tex" | "html" => Some((path, text.to_string())),
+            _ => None,
+        });
+        let added = set.and_then(|()| tera.add_raw_templates(sources));
+        let (templates, context) = (templates.clone(), Context::new());
+        let filler = Filler { tera, templates, declared, context, names: Json::Null };
         added.map_err(|error| filler.translate(&error))?;
         Ok(filler)
     }
 
-    /// Adds a name that is no value: the rows of the claims, the list of figures.
-    pub fn insert<T: serde::Serialize>(&mut self, name: &'static str, rows: &T) {
-        self.context.insert(name, rows);
+    /// Adds values: `v.name` and `group.name` are marks, `raw.name` and `raw.group.name` plain
+    /// numbers. Cells of tables are `table["row"].column`, their keys `keys.table.key` and
+    /// `keys.table.rows`.
+    pub fn insert_values(&mut self, values: &ValueRegistry) {
+        // Tables for figures alone are long, and no template needs them.
+        let named = |table: &&Table| {
+            let mut filled =
+                self.templates.iter().filter(|(path, _)| self.tera.contains_template(path));
+            filled.any(|(_, text)| text.contains(table.name()))
+        };
+        let tables: Vec<&Table> = values.tables().filter(named).collect();
+        let cells = tables.iter().copied().flat_map(Table::cells);
+        let empty = values.iter().chain(cells).filter(|value| value.number == Number::None);
+        register_otherwise(&mut self.tera, empty.map(|value| value.id.clone()).collect());
+        self.names = context_names(values, &tables);
+        for (group, names) in self.names.as_object().into_iter().flatten() {
+            self.context.insert(group.clone(), names);
+        }
     }
 
     pub fn fill(&self, path: &str) -> Result<String, Error> {
-        let mut written = Written(Vec::new());
-        let outcome = self.tera.render_to(path, &self.context, &mut written);
-        let output = String::from_utf8(written.0).unwrap_or_default();
-        if output.len() > MOST {
+        // No memory is taken for what stays empty.
+        let mut buffer = vec![0; MOST];
+        let mut free = &mut buffer[..];
+        let outcome = self.tera.render_to(path, &self.context, &mut free);
+        let left = free.len();
+        let output = String::from_utf8_lossy(&buffer[..MOST - left]).into_owned();
+        if left == 0 {
             let problem = format!("this writes more than {} MiB; end the loop earlier", MOST >> 20);
             let offset = output.rsplit(mark::OPEN).find_map(mark::offset_in);
             return Err(self.fault(path, offset.unwrap_or_default(), &problem));
@@ -89,7 +101,7 @@ impl Filler {
         let files = document.files(&self.templates);
         if files.is_empty() {
             let problem = "no such file in the templates; write the document";
-            return Err(Error::Template(format!("{}.md: {problem}", document.prose)));
+            return Err(Error::Message(format!("{}.md: {problem}", document.prose)));
         }
         let mut filled = Filled::default();
         for path in files {
@@ -103,17 +115,15 @@ impl Filler {
     /// Refuses names in conditions that do not exist, which Tera takes for *false*, plain numbers
     /// outside of conditions, and filters on values that take plain numbers or words.
     fn conditions(&self, path: &str, template: &str) -> Result<(), Error> {
-        let uses = |group| template.match_indices(group).map(|(offset, _)| offset);
-        for offset in uses("raw.").chain(uses("keys.")) {
-            if template[offset..].starts_with("raw.")
-                && template[..offset].trim_end_matches(['-', ' ']).ends_with('«')
-            {
+        let uses = |group| template.match_indices(group);
+        for (offset, group) in uses("raw.").chain(uses("keys.")) {
+            let (before, name) = template.split_at(offset);
+            if group == "raw." && before.trim_end_matches(['-', ' ']).ends_with('«') {
                 let problem = "a plain number is for conditions; write the value, as «v.name»";
                 return Err(self.fault(path, offset, problem));
             }
-            let begins =
-                !template[..offset].ends_with(|c: char| c.is_alphanumeric() || "._".contains(c));
-            if let Some(problem) = self.describe_missing(&template[offset..]).filter(|_| begins) {
+            let begins = !before.ends_with(|c: char| c.is_alphanumeric() || "._".contains(c));
+            if let Some(problem) = self.describe_missing(name).filter(|_| begins) {
                 return Err(self.fault(path, offset, &problem));
             }
         }
@@ -139,8 +149,7 @@ impl Filler {
     }
 
     /// Describes which part of a name, `table["row"].column`, does not exist, with the most similar
-    /// names, or returns `None` if the name is right or names no value. A computed row may be any
-    /// row.
+    /// names, or returns `None` if the name is right or names no value. A computed row may be any.
     fn describe_missing(&self, expression: &str) -> Option<String> {
         let mut here = &self.names;
         for (depth, (key, end)) in steps(expression).into_iter().enumerate() {
@@ -162,16 +171,12 @@ impl Filler {
 
     /// Lists the plain numbers that an expression names: `raw.a is 0.12, raw.b is 0.11`.
     fn list_numbers(&self, expression: &str) -> String {
-        let mut numbers = Vec::new();
-        for (offset, _) in expression.match_indices("raw.") {
+        let numbers = expression.match_indices("raw.").filter_map(|(offset, _)| {
             let steps = steps(&expression[offset..]);
-            let end = steps.last().map_or(0, |(_, end)| *end);
-            let number = steps.iter().try_fold(&self.names, |here, (key, _)| here.get((*key)?));
-            numbers.extend(
-                number.map(|number| format!("{} is {number}", &expression[offset..offset + end])),
-            );
-        }
-        numbers.join(", ")
+            let number = steps.iter().try_fold(&self.names, |here, (key, _)| here.get((*key)?))?;
+            Some(format!("{} is {number}", &expression[offset..offset + steps.last()?.1]))
+        });
+        numbers.collect::<Vec<_>>().join(", ")
     }
 
     /// Translates an error of Tera, which is a message, an arrow to the place, and the line there.
@@ -184,7 +189,7 @@ impl Filler {
         let problem =
             signs.iter().fold(problem, |problem, (theirs, ours)| problem.replace(theirs, ours));
         let place: Vec<&str> = place.lines().next().unwrap_or_default().split(':').collect();
-        let [path, line, column] = place[..] else { return Error::Template(problem) };
+        let [path, line, column] = place[..] else { return Error::Message(problem) };
         let template = self.templates.text(path).unwrap_or_default();
         let [line, column] = [line, column].map(|from_one| from_one.parse().unwrap_or(1) - 1);
         // The columns are those of the text with its place marks.
@@ -195,8 +200,8 @@ impl Filler {
             Piece::Text(template) => template.len(),
             Piece::Value { .. } => 0,
         };
-        let offset =
-            begun + pieces(&before.collect::<String>()).into_iter().map(typed).sum::<usize>();
+        let before = before.collect::<String>();
+        let offset = begun + pieces(&before).into_iter().map(typed).sum::<usize>();
         let Some(tag) = template.get(..offset).and_then(|before| before.rfind('«')) else {
             return self.fault(path, offset, &problem);
         };
@@ -220,28 +225,13 @@ impl Filler {
 fn fault(templates: &Templates, path: &str, offset: usize, problem: &str) -> Error {
     let template = templates.text(path).unwrap_or_default();
     let place = Place::in_text(templates.place(path), template, offset);
-    Error::Template(problem.into()).with_place(place)
+    Error::Message(problem.into()).with_place(place)
 }
 
 /// A template writes at most this many bytes.
 const MOST: usize = 64 << 20;
 
-struct Written(Vec<u8>);
-
-impl std::io::Write for Written {
-    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        self.0.extend_from_slice(bytes);
-        let is_full = self.0.len() > MOST;
-        if is_full { Err(std::io::ErrorKind::OutOfMemory.into()) } else { Ok(bytes.len()) }
-    }
-
-    fn flush(&mut self) -> std::io::Result<()> {
-        Ok(())
-    }
-}
-
-/// Splits the name that begins an expression into its keys, each with the offset of its end; a row
-/// that is computed has no key.
+/// Splits the name that begins an expression into keys with their ends; a computed row has no key.
 fn steps(expression: &str) -> Vec<(Option<&str>, usize)> {
     let (mut steps, mut end) = (Vec::new(), 0);
     loop {
@@ -267,15 +257,6 @@ fn steps(expression: &str) -> Vec<(Option<&str>, usize)> {
 
 const FILTERS: [&str; 3] = ["percent", "significant", "otherwise"];
 const NOT_TRUE: &str = "the words before are no longer true";
-
-/// Returns path and text of a file that Tera fills; prose has marks of its places.
-fn source((path, text): (&str, &str)) -> Option<(String, String)> {
-    match path.rsplit_once('.')?.1 {
-        "md" => Some((path.into(), with_places(text))),
-        "tex" | "html" => Some((path.into(), text.into())),
-        _ => None,
-    }
-}
 
 fn plain_number(value: &Value) -> Json {
     match &value.number {
@@ -324,12 +305,21 @@ fn insert_at(tree: &mut Json, path: &[&str], value: Json) {
     *path.iter().fold(tree, |tree, part| &mut tree[*part]) = value;
 }
 
-/// Registers the filters and functions that the manual lists; the values `empty` have no number.
-fn register(tera: &mut Tera, empty: BTreeSet<String>) {
-    let with = |mark: &str, word: &str| {
-        let problem =
-            || tera::Error::message(format!("`{word}` is a filter for values, as v.name"));
-        mark::with_filter(mark, word).ok_or_else(problem)
+/// Registers the filter `otherwise`; the values `empty` have no number.
+fn register_otherwise(tera: &mut Tera, empty: BTreeSet<String>) {
+    tera.register_filter("otherwise", move |mark: &str, arguments: Kwargs, _: &State| {
+        let words: String = arguments.must_get("words")?;
+        let is_empty = |(id, ..): (String, _, _)| empty.contains(&id);
+        Ok::<_, tera::Error>(if mark::values(mark).any(is_empty) { words } else { mark.into() })
+    });
+}
+
+/// Registers the filters and functions that the manual lists.
+fn register(tera: &mut Tera) {
+    register_otherwise(tera, BTreeSet::new());
+    let with = |mark: &str, word: &str| match &pieces(mark)[..] {
+        [Piece::Value { id, filters }] => Ok(mark::framed(id, &format!("{filters} {word}"))),
+        _ => Err(tera::Error::message(format!("`{word}` is a filter for values, as v.name"))),
     };
     tera.register_filter("percent", move |mark: &str, _: Kwargs, _: &State| with(mark, "percent"));
     tera.register_filter("significant", move |mark: &str, arguments: Kwargs, _: &State| {
@@ -337,11 +327,6 @@ fn register(tera: &mut Tera, empty: BTreeSet<String>) {
             Ok(digits @ 1..=17) => with(mark, &format!("significant{digits}")),
             _ => Err(tera::Error::message("`significant` needs 1 to 17: significant(digits=2)")),
         }
-    });
-    tera.register_filter("otherwise", move |mark: &str, arguments: Kwargs, _: &State| {
-        let words: String = arguments.must_get("words")?;
-        let is_empty = |(id, ..): (String, _, _)| empty.contains(&id);
-        Ok::<_, tera::Error>(if mark::values(mark).any(is_empty) { words } else { mark.into() })
     });
     tera.register_function("literal", |arguments: Kwargs, _: &State| {
         let literal: String = arguments.must_get("text")?;

@@ -1,5 +1,4 @@
-//! Writes a report into a folder, without overwriting files that somebody edited, and compares the
-//! two.
+//! Writes a report into a folder, unless somebody edited what is there, and compares the two.
 //!
 //! Two lists in the format of `sha256sum` name every file: SHA256SUMS those that are committed, and
 //! SHA256SUMS.built those that are only built and may be absent, such as pages and figures
@@ -106,8 +105,7 @@ pub fn walk(folder: &Path) -> Result<Vec<String>, Error> {
     Ok(paths)
 }
 
-/// Returns whether a file is built with a report and never committed: .gitignore names the same
-/// files.
+/// Returns whether a file is built and never committed: .gitignore names the same files.
 pub fn is_generated(path: &str) -> bool {
     match path.split_once('/') {
         Some((folder, name)) => match folder {
@@ -209,8 +207,7 @@ pub fn write(folder: &Path, files: &Files, force: bool) -> Result<(), Error> {
     Ok(())
 }
 
-/// Returns how many files are expected, and a line for each file that is not as expected; what is
-/// only built may be missing.
+/// Returns how many files are expected, and a line for each fault; what is built may be missing.
 fn find_faults(folder: &Path, mut expected: Digests) -> Result<(usize, Vec<String>), Error> {
     expected.retain(|path, _| !is_generated(path) || folder.join(path).exists());
     let fault = |(path, digest): (&String, &String)| match input::read_file(&folder.join(path)) {

@@ -6,11 +6,11 @@
 pub(super) mod shared;
 mod table;
 
-use super::document::{self, Block, Formula, Inline};
+use super::assemble::Input;
+use super::document::{self, Block, Formula, Inline, Reference};
 use super::document::{heading_place, place_on_page, to_spelt_text};
 use super::edition::Document;
 use super::error::Error;
-use super::input::Input;
 use super::{latex, mathml};
 use crate::claims::Verdict;
 use crate::figures::{Glyphs, escape, outlines};
@@ -19,17 +19,15 @@ use math_core::MathDisplay;
 use serde_json::{Value as Json, json};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
-use std::fmt::Write as _;
 
-/// Returns what the template report.html inserts, and the ids of the cards that the page opens.
+/// Returns what report.html inserts, the ids of the cards that the page opens, and errors.
 pub fn write(
     blocks: &[Block],
     here: Document,
     input: &Input<'_>,
-) -> Result<(Json, BTreeSet<String>), Error> {
-    let page = Page::new(input);
-    let (title, edition, sources) =
-        (document::title(blocks)?, input.edition, &input.project.sources);
+) -> (Json, BTreeSet<String>, Vec<Error>) {
+    let (page, edition, sources) = (Page::new(input), input.edition, &input.project.sources);
+    let title = document::title(blocks).unwrap_or_default();
     let (heading, body) = (page.inlines(title), page.blocks(blocks));
     let (mut sections, mut figures) = (Vec::new(), Vec::new());
     for block in blocks {
@@ -86,8 +84,7 @@ pub fn write(
         "body": body,
         "glyphs": outlines(&page.glyphs.borrow()),
     });
-    Error::check(page.errors.into_inner())?;
-    Ok((parts, page.values.into_inner()))
+    (parts, page.cards.into_inner(), page.errors.into_inner())
 }
 
 const OPENING: [char; 4] = ['(', '[', '“', '‘'];
@@ -95,15 +92,15 @@ const CLOSING: [char; 12] = ['.', ',', ';', ':', '!', '?', ')', ']', '”', '’
 
 pub(super) struct Page<'a> {
     input: &'a Input<'a>,
-    values: RefCell<BTreeSet<String>>,
+    cards: RefCell<BTreeSet<String>>,
     glyphs: RefCell<Glyphs>,
     errors: RefCell<Vec<Error>>,
 }
 
 impl<'a> Page<'a> {
     fn new(input: &'a Input<'a>) -> Self {
-        let (values, glyphs, errors) = Default::default();
-        Page { input, values, glyphs, errors }
+        let (cards, glyphs, errors) = Default::default();
+        Page { input, cards, glyphs, errors }
     }
 
     fn blocks(&self, blocks: &[Block]) -> String {
@@ -159,16 +156,11 @@ impl<'a> Page<'a> {
                 if let Some(number) = &table.number {
                     name += &format!(" {number}");
                     let caption = self.inlines(&table.caption);
-                    let _ =
-                        write!(html, "<figcaption><strong>{name}.</strong> {caption}</figcaption>");
+                    html += &format!("<figcaption><strong>{name}.</strong> {caption}</figcaption>");
                 }
                 html + &scrollable(&name, &self.table(table)) + "</figure>\n"
             }
             Block::List { start, items } => {
-                let (open, close) = match start {
-                    Some(n) => (format!("<ol start=\"{n}\">\n"), "</ol>\n"),
-                    None => ("<ul>\n".into(), "</ul>\n"),
-                };
                 let item = |item: &Vec<Block>| {
                     // One paragraph stands without `<p>`.
                     let words = match item.as_slice() {
@@ -177,7 +169,11 @@ impl<'a> Page<'a> {
                     };
                     format!("<li>{words}</li>\n")
                 };
-                open + &items.iter().map(item).collect::<String>() + close
+                let items: String = items.iter().map(item).collect();
+                match start {
+                    Some(n) => format!("<ol start=\"{n}\">\n{items}</ol>\n"),
+                    None => format!("<ul>\n{items}</ul>\n"),
+                }
             }
             Block::Quote(blocks) => {
                 format!("<blockquote>\n{}</blockquote>\n", self.blocks(blocks))
@@ -193,22 +189,17 @@ impl<'a> Page<'a> {
                 self.inlines(origin)
             ),
             Block::Bibliography(entries) => {
-                let mut html = String::from("<ul class=\"references\">\n");
-                for entry in entries {
+                let entry = |entry: &Reference| {
                     let id = place_on_page(&format!("ref:{}", entry.key));
-                    let _ = writeln!(
-                        html,
-                        "<li id=\"{id}\">{}</li>",
-                        self.inlines(&entry.to_inlines())
-                    );
-                }
-                html + "</ul>\n"
+                    format!("<li id=\"{id}\">{}</li>\n", self.inlines(&entry.to_inlines()))
+                };
+                let entries: String = entries.iter().map(entry).collect();
+                format!("<ul class=\"references\">\n{entries}</ul>\n")
             }
         }
     }
 
-    /// Writes a paragraph. HTML lets no equation stand inside a `<p>`: the sentence goes on in the
-    /// next one.
+    /// Writes a paragraph. No equation can stand inside a `<p>`: the sentence goes on in the next.
     fn paragraph(&self, text: &[Inline]) -> String {
         let mut html = String::new();
         let is_display = |inline: &Inline| matches!(inline, Inline::Display { .. });
@@ -217,15 +208,14 @@ impl<'a> Page<'a> {
             let words = self.inlines(words);
             if !words.trim().is_empty() {
                 let class = if i > 0 { " class=\"on\"" } else { "" };
-                let _ = writeln!(html, "<p{class}>{}</p>", words.trim());
+                html += &format!("<p{class}>{}</p>\n", words.trim());
             }
             html += &equation.map_or(String::new(), |equation| self.inline(equation));
         }
         html
     }
 
-    /// Writes running text. Browsers break lines before and after a formula: what must stay on its
-    /// line is kept together with it.
+    /// Writes running text. Browsers break lines around a formula, but for what is kept with it.
     fn inlines(&self, list: &[Inline]) -> String {
         // Pieces, and whether each stays with the one before.
         let mut pieces: Vec<(String, bool)> = Vec::new();
@@ -283,24 +273,19 @@ impl<'a> Page<'a> {
             Inline::Strong(inner) => format!("<strong>{}</strong>", self.inlines(inner)),
             Inline::Maths(formula) => self.formula(formula, MathDisplay::Inline),
             Inline::Display { formula, id, number } => {
-                let (name, id, tag) = match id.as_deref().map(place_on_page) {
-                    Some(id) => {
-                        let mut card = String::new();
-                        // An equation of the ledger opens its card, which has the line of its code.
-                        let mut equations = self.input.edition.equations.iter();
-                        if equations.any(|of| id == format!("eq-{}", of.number)) {
-                            card = format!(" data-card=\"eq:{number}\"");
-                            self.values.borrow_mut().insert(format!("eq:{number}"));
-                        }
-                        let tag =
-                            format!("<a class=\"number\" href=\"#{id}\"{card}>({number})</a>");
-                        (number.as_str(), format!(" id=\"{id}\""), tag)
-                    }
-                    None => ("without number", String::new(), String::new()),
-                };
                 let formula = self.formula(formula, MathDisplay::Block);
-                let formula = scrollable(&format!("Equation {name}"), &formula);
-                format!("<div class=\"equation\"{id}>{formula}{tag}</div>\n")
+                let Some(id) = id.as_deref().map(place_on_page) else {
+                    let formula = scrollable("Equation without number", &formula);
+                    return format!("<div class=\"equation\">{formula}</div>\n");
+                };
+                let formula = scrollable(&format!("Equation {number}"), &formula);
+                // An equation of the ledger opens its card, which has the line of its code.
+                let mut equations = self.input.edition.equations.iter();
+                let is_listed = equations.any(|of| id == format!("eq-{}", of.number));
+                let card =
+                    if is_listed { self.card(&format!("eq:{number}")) } else { String::new() };
+                let tag = format!("<a class=\"number\" href=\"#{id}\"{card}>({number})</a>");
+                format!("<div class=\"equation\" id=\"{id}\">{formula}{tag}</div>\n")
             }
             Inline::Value { id, printed } => self.value(id, printed, '\u{a0}'),
             Inline::Link { to, words } => {
@@ -318,10 +303,7 @@ impl<'a> Page<'a> {
                 let class = verdict.map_or(String::new(), |verdict| {
                     let words = verdict.words();
                     let name = words.replace(' ', "-");
-                    let card = within.filter(|_| to.starts_with("claim:")).map(|_| {
-                        self.values.borrow_mut().insert(to.clone());
-                        format!(" data-card=\"{to}\"")
-                    });
+                    let card = within.filter(|_| to.starts_with("claim:")).map(|_| self.card(to));
                     let card = card.unwrap_or_default();
                     format!(" class=\"verdict {name}\" title=\"{words}\"{card}")
                 });
@@ -338,21 +320,26 @@ impl<'a> Page<'a> {
         let value = |id: &str, printed: &Printed| self.value(id, printed, '\u{202f}');
         mathml::write(formula, display, value).unwrap_or_else(|problem| {
             // The error names the whole formula, by which its place is found.
-            self.errors.borrow_mut().push(Error::Maths { tex: formula.to_tex(), problem });
+            self.errors.borrow_mut().push(Error::formula(formula.to_tex(), &problem));
             String::new()
         })
     }
 
     /// Writes a value, which opens its card. (Browsers break lines around a `<button>`.)
     fn value(&self, id: &str, printed: &Printed, blank: char) -> String {
-        self.values.borrow_mut().insert(id.to_string());
-        // A line that ends in an attribute would be read as a blank.
-        let id = escape(id).replace('\n', "&#10;");
+        let card = self.card(id);
         let (class, html) = match printed {
             Printed::Words(_) => ("value phrase", self.inlines(&document::to_inlines(printed))),
             Printed::Number(numeral) => ("value", number_to_html(numeral, blank)),
         };
-        format!("<span class=\"{class}\" data-card=\"{id}\">{html}</span>")
+        format!("<span class=\"{class}\"{card}>{html}</span>")
+    }
+
+    /// Notes that the page opens the card with this id, and returns the attribute that names it.
+    fn card(&self, id: &str) -> String {
+        self.cards.borrow_mut().insert(id.to_string());
+        // A line that ends in an attribute would be read as a blank.
+        format!(" data-card=\"{}\"", escape(id).replace('\n', "&#10;"))
     }
 }
 
@@ -365,7 +352,7 @@ fn number_to_html(numeral: &Numeral, blank: char) -> String {
     if let Some(exponent) = numeral.exponent {
         let times = if html.is_empty() { "" } else { "\u{202f}×\u{202f}" };
         let minus = if exponent < 0 { "−" } else { "" };
-        let _ = write!(html, "{times}10<sup>{minus}{}</sup>", exponent.unsigned_abs());
+        html += &format!("{times}10<sup>{minus}{}</sup>", exponent.unsigned_abs());
     }
     if numeral.in_percent {
         html.extend([blank, '%']);

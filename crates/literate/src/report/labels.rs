@@ -5,7 +5,8 @@ use super::document::{
     Block, Inline, Reference, Table, heading_place, place_on_page, rewrite, visit,
 };
 use super::edition::Document;
-use super::error::{Error, Thing};
+use super::error::{Error, Thing, fault};
+use super::filled::Places;
 use crate::claims::Check;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -27,19 +28,22 @@ pub struct Labels {
 }
 
 impl Labels {
+    pub fn new(claims: &[Check]) -> Self {
+        let signs = claims.iter().map(|claim| (claim.id.clone(), claim.verdict.sign())).collect();
+        Labels { signs, ..Labels::default() }
+    }
+
     fn add(&mut self, id: &str, number: &str, document: Document) -> Option<Error> {
-        let fault = |problem: &str| {
-            Some(Error::Named { thing: Thing::Id(id.into()), problem: format!("{id}: {problem}") })
-        };
+        let error = |problem: &str| Error::named(Thing::Id, id, format!("{id}: {problem}"));
         let name = id.split_once(':').map_or(id, |(_, name)| name);
         let (shown, digits) = (number.trim_matches(['(', ')']), name.strip_prefix(document.letter));
         if digits.is_some_and(|it| it.parse::<u32>().is_ok()) && ![name, ""].contains(&shown) {
-            return fault(&format!("its number is {shown}; give it an id of letters"));
+            return Some(error(&format!("its number is {shown}; give it an id of letters")));
         }
         if self.labels.insert(id.to_string(), Label { number: number.into(), document }).is_none() {
             return self.take_place(id, place_on_page(id), document.page);
         }
-        fault("two things in the report have this id; give one of them another")
+        Some(error("two things in the report have this id; give one of them another"))
     }
 
     /// Refuses a place on a page that another id has, of which links could find one only.
@@ -47,20 +51,18 @@ impl Labels {
         let other = self.places.insert((page, place), id.to_string())?;
         let problem =
             format!("{id}: links cannot tell it from {other}; give one of them another id");
-        Some(Error::Named { thing: Thing::Id(id.into()), problem })
+        Some(Error::named(Thing::Id, id, problem))
     }
 
     /// Refuses keys of references that have one place in the list.
-    pub fn add_keys<'a>(&mut self, keys: impl Iterator<Item = &'a str>) -> Result<(), Error> {
+    pub fn add_keys<'a>(&mut self, keys: impl Iterator<Item = &'a str>) -> Vec<Error> {
         let place = |key| place_on_page(&format!("ref:{key}"));
-        Error::check(
-            keys.filter_map(|key| self.take_place(key, place(key), "references")).collect(),
-        )
+        keys.filter_map(|key| self.take_place(key, place(key), "references")).collect()
     }
 
     /// Adds labels to ids without a label, so that a reference to them is no error.
-    pub fn add_missing<'a>(&mut self, ids: impl Iterator<Item = &'a str>, document: Document) {
-        for id in ids {
+    pub fn add_missing(&mut self, places: &Places<'_>, document: Document) {
+        for (id, _) in places.named(Thing::Id) {
             let label = Label { number: "?".into(), document };
             self.labels.entry(id.to_string()).or_insert(label);
         }
@@ -71,7 +73,7 @@ impl Labels {
     }
 
     /// Numbers what references can name, in order; a number that is given is kept.
-    pub fn number_all(&mut self, blocks: &mut [Block], document: Document) -> Result<(), Error> {
+    pub fn number_all(&mut self, blocks: &mut [Block], document: Document) -> Vec<Error> {
         let mut given: Vec<(&str, String)> = Vec::new();
         visit(blocks, &mut |inline| {
             if let Inline::Display { number, .. } = inline {
@@ -94,7 +96,7 @@ impl Labels {
         let (mut section, mut subsection) = (format!("{}0", document.letter), 0);
         let mut errors = Vec::new();
         for block in blocks.iter_mut() {
-            let (id, number) = match block {
+            let (kind, id, number) = match block {
                 Block::Heading { level, number, id, text } => {
                     match number {
                         Some(number) if *level == 2 => {
@@ -107,29 +109,29 @@ impl Labels {
                         }
                         None => (),
                     }
-                    if id.is_none() && number.is_some() {
+                    if let Some(id) = id {
+                        errors.extend(self.add(
+                            id,
+                            number.as_deref().unwrap_or_default(),
+                            document,
+                        ));
+                    } else if number.is_some() {
                         let place = heading_place(None, number.as_deref(), text);
                         errors.extend(self.take_place(&place.clone(), place, document.page));
                     }
-                    (id.as_deref(), number.as_deref().unwrap_or_default())
+                    continue;
                 }
                 // A repeated figure has its label in another document.
-                Block::Figure { id, number, .. } if !document.repeats => {
-                    if number.is_empty() {
-                        *number = next("fig");
-                    }
-                    (Some(id.as_str()), number.as_str())
-                }
-                Block::Listing { id, number, .. } => {
-                    *number = next("lst");
-                    (Some(id.as_str()), number.as_str())
-                }
+                Block::Figure { id, number, .. } if !document.repeats => ("fig", Some(id), number),
+                Block::Listing { id, number, .. } => ("lst", Some(id), number),
                 Block::Table(Table { id, number: Some(number), .. }) => {
-                    *number = next("tab");
-                    (id.as_deref(), number.as_str())
+                    ("tab", id.as_mut(), number)
                 }
                 _ => continue,
             };
+            if number.is_empty() {
+                *number = next(kind);
+            }
             errors.extend(id.and_then(|id| self.add(id, number, document)));
         }
         visit(blocks, &mut |inline| match inline {
@@ -146,48 +148,18 @@ impl Labels {
             }
             _ => (),
         });
-        Error::check(errors)
-    }
-
-    /// Takes the signs of verdicts for `row:`, `mark:` and `sign:`; refuses a place of a statement
-    /// that does not exist.
-    pub fn add_verdicts(&mut self, claims: &[Check]) -> Result<(), Error> {
-        self.signs = claims.iter().map(|claim| (claim.id.clone(), claim.verdict.sign())).collect();
-        let mut errors = Vec::new();
-        for id in self.labels.keys().filter_map(|id| id.strip_prefix("claim:")) {
-            if !self.signs.contains_key(id) {
-                let problem = format!("[!claim:{id}]: there is no statement with this id");
-                let ids = self.signs.keys().map(String::as_str);
-                errors.push(Error::unknown(Thing::Id(format!("claim:{id}")), problem, ids));
-            }
-        }
-        Error::check(errors)
+        errors
     }
 
     /// Resolves all references of a document, and fills its list of references with what it cites.
-    pub fn resolve(
-        &self,
-        blocks: &mut [Block],
-        here: Document,
-        library: &Library,
-    ) -> Result<(), Error> {
-        let mut errors = Vec::new();
-        for block in blocks.iter_mut() {
-            // A repeated figure has the number that another document gives it.
-            if let Block::Figure { id, number, .. } = block {
-                match self.get(id) {
-                    Some(label) => *number = label.number.clone(),
-                    None => errors.push(self.unknown(id, id)),
-                }
-            }
-        }
+    pub fn resolve(&self, blocks: &mut [Block], here: Document, library: &Library) -> Vec<Error> {
         let mut cited = BTreeSet::new();
         visit(blocks, &mut |inline| {
             if let Inline::Unresolved { ids, .. } = inline {
                 cited.extend(ids.iter().filter(|id| is_key(id)).cloned());
             }
         });
-        errors.extend(cited.iter().filter_map(|key| library.fault(key)));
+        let mut errors: Vec<Error> = cited.iter().filter_map(|key| library.fault(key)).collect();
         let list = library.list(&cited);
         rewrite(blocks, &mut |inline| {
             let Inline::Unresolved { ids, in_sentence } = inline else { return vec![inline] };
@@ -204,17 +176,21 @@ impl Labels {
         });
         let mut has_list = false;
         for block in blocks {
-            if let Block::Bibliography(entries) = block {
-                (*entries, has_list) = (list.clone(), true);
+            match block {
+                // A repeated figure has the number that another document gives it.
+                Block::Figure { id, number, .. } => match self.get(id) {
+                    Some(label) => number.clone_from(&label.number),
+                    None => errors.push(self.unknown(id, id)),
+                },
+                Block::Bibliography(entries) => (*entries, has_list) = (list.clone(), true),
+                _ => (),
             }
         }
-        if let (Some(first), false) = (list.first(), has_list) {
+        if let (Some(Reference { key, .. }), false) = (list.first(), has_list) {
             let problem = "the document cites this and has no list of references; add a paragraph [@bibliography]";
-            let (thing, problem) =
-                (Thing::Reference(first.key.clone()), format!("[@{}]: {problem}", first.key));
-            errors.push(Error::Named { thing, problem });
+            errors.push(Error::named(Thing::Reference, key, format!("[@{key}]: {problem}")));
         }
-        Error::check(errors)
+        errors
     }
 
     fn resolve_ids(&self, ids: &[String], here: Document) -> Result<Vec<Inline>, Error> {
@@ -259,7 +235,7 @@ impl Labels {
         let numbered = self.labels.iter().filter(|(_, label)| !label.number.is_empty());
         let alike = numbered.map(|(known, _)| known.as_str());
         let alike = alike.filter(|known| kind(known) == kind(id));
-        Error::unknown(Thing::Reference(asked.into()), format!("[@{asked}]: {problem}"), alike)
+        Error::unknown(Thing::Reference, asked, &format!("[@{asked}]: {problem}"), alike)
     }
 }
 
@@ -275,9 +251,8 @@ fn is_key(id: &str) -> bool {
 
 fn mixed(ids: &[String]) -> Error {
     let ids = ids.join("; ");
-    let problem =
-        format!("[@{ids}]: references of different kinds; give each kind its own brackets");
-    Error::Named { thing: Thing::Reference(ids), problem }
+    let problem = "references of different kinds; give each kind its own brackets";
+    Error::named(Thing::Reference, &ids, format!("[@{ids}]: {problem}"))
 }
 
 /// Writes `[@rice1945]` as "[Rice, 1945]", and `@rice1945` in a sentence as "Rice (1945)".
@@ -292,8 +267,9 @@ fn cite(
         let entry = list.iter().find(|entry| entry.key == *key);
         let Reference { names, year, .. } = entry.ok_or_else(|| {
             let problem = "nothing in the report and no entry of references.bib has this id";
-            let (thing, problem) = (Thing::Reference(key.clone()), format!("[@{key}]: {problem}"));
-            library.fault(key).unwrap_or_else(|| Error::unknown(thing, problem, library.keys()))
+            let problem = format!("[@{key}]: {problem}");
+            let unknown = || Error::unknown(Thing::Reference, key, &problem, library.keys());
+            library.fault(key).unwrap_or_else(unknown)
         })?;
         let (to, within) = (format!("ref:{key}"), None);
         if in_sentence {
@@ -315,7 +291,7 @@ pub(super) fn check_kind(kind: &str, id: &str) -> Result<(), Error> {
         return Ok(());
     }
     let problem = "followed by letters, digits or any of : - _ .";
-    Err(Error::Markup(format!("the id {id:?} is not valid: write {kind}: {problem}")))
+    Err(fault(format!("the id {id:?} is not valid: write {kind}: {problem}")))
 }
 
 /// Returns what references call things of a kind: one and several, in short and in full.

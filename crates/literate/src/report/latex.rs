@@ -3,16 +3,15 @@
 use super::document::{self, Block, Formula, Inline, Reference, Table, title};
 use super::document::{goes_on, is_abstract, place, to_inlines, to_plain_text, to_spelt_text};
 use super::edition::{Document, Edition};
-use super::error::Error;
 use super::tex;
 use pulldown_cmark::Alignment;
 use serde_json::{Value as Json, json};
 
-/// Returns what report.tex inserts, or the characters that pdflatex does not know.
-pub fn write(blocks: &[Block], document: Document, edition: &Edition) -> Result<Json, Error> {
-    let title = title(blocks)?;
+/// Returns what report.tex inserts.
+pub fn write(blocks: &[Block], document: Document, edition: &Edition) -> Json {
+    let title = title(blocks).unwrap_or_default();
     let authors = edition.authors.iter().map(|(name, of)| [tex::escape(name), tex::escape(of)]);
-    let print = json!({
+    json!({
         "letter": document.letter,
         "page": document.page,
         "title": inlines(title),
@@ -21,9 +20,7 @@ pub fn write(blocks: &[Block], document: Document, edition: &Edition) -> Result<
         "date": edition.date,
         "body": body(blocks),
         "listings": listings(blocks),
-    });
-    Error::check(tex::unknown(&print.to_string()).into_iter().map(Error::NoLatex).collect())?;
-    Ok(print)
+    })
 }
 
 fn body(blocks: &[Block]) -> String {
@@ -110,10 +107,8 @@ fn write_block(block: &Block) -> String {
         }
         Block::Quote(blocks) => format!("\\begin{{quote}}\n{}\\end{{quote}}", body(blocks)),
         Block::Code { code, .. } => {
-            format!(
-                "{{\\small\\begin{{alltt}}\n{}\n\\end{{alltt}}}}",
-                tex::escape_code(code.trim_end())
-            )
+            let code = tex::escape_code(code.trim_end());
+            format!("{{\\small\\begin{{alltt}}\n{code}\n\\end{{alltt}}}}")
         }
         // Listings stand after the text, and paper runs nothing.
         Block::Listing { .. } | Block::Lab { .. } => String::new(),
@@ -210,8 +205,7 @@ fn formula_to_latex(formula: &Formula) -> String {
     tex::escape_formula(&formula.to_tex_with(|id, printed| tex::origin_link(id, &printed.to_tex())))
 }
 
-/// Allows long paths and addresses in code to break after `::`, `/`, `\_`, `,` and `]`, and before
-/// `[`.
+/// Allows long paths in code to break after `::`, `/`, `\_`, `,` and `]`, and before `[`.
 fn breakable(code: &str) -> String {
     code.replace("::", "::\\allowbreak{}")
         .replace('/', "/\\allowbreak{}")
@@ -225,8 +219,7 @@ fn address(to: &str) -> String {
     document::address(to).replace('%', r"\%").replace('#', r"\#").replace('&', r"\&")
 }
 
-/// Characters that fit into a line of the page in the size of tables, into one of the page on its
-/// side, and there in small letters.
+/// Characters of a table in a line of the page, of one on its side, and there in small letters.
 const LINES: [usize; 3] = [LINE, LINE * 3 / 2, LINE * 2];
 const LINE: usize = 92;
 
@@ -246,8 +239,8 @@ struct Column {
     least: usize,
 }
 
-impl Column {
-    fn new(table: &Table, i: usize, align: Alignment) -> Self {
+fn columns(table: &Table) -> Vec<Column> {
+    let column = |(i, align): (usize, &Alignment)| {
         let rows = table.rows.iter().chain([&table.head]);
         let cells: Vec<String> = rows.map(|row| to_plain_text(&row[i])).collect();
         let width = cells.iter().map(|cell| cell.chars().count()).max().unwrap_or(0).max(3);
@@ -259,21 +252,19 @@ impl Column {
             Alignment::Right => "r",
         };
         Column { letter, width, least: if width <= SHORT { width } else { word + 1 } }
-    }
+    };
+    table.columns.iter().enumerate().map(column).collect()
 }
 
-fn columns(table: &Table) -> Vec<Column> {
-    let columns = table.columns.iter().enumerate();
-    columns.map(|(i, align)| Column::new(table, i, *align)).collect()
-}
-
-/// Returns in which line, of the three, a table fits with gaps that may be halved, or `None` if on
-/// no page.
+/// Returns in which of the lines a table fits with gaps that may be halved, or `None` if in none.
 pub fn line_of(table: &Table) -> Option<usize> {
     let columns = columns(table);
-    let total: usize = columns.iter().map(|column| column.width + 2).sum();
-    let first = usize::from(total > ACROSS);
+    let first = usize::from(total(&columns) > ACROSS);
     (first..LINES.len()).find(|line| least(&columns, 0.5) <= LINES[*line] as f64)
+}
+
+fn total(columns: &[Column]) -> usize {
+    columns.iter().map(|column| column.width + 2).sum()
 }
 
 /// Returns how narrow columns can be together, with a share of the usual gaps.
@@ -285,8 +276,7 @@ fn least(columns: &[Column], gap: f64) -> f64 {
 fn table(table: &Table) -> String {
     let (columns, place) = (columns(table), line_of(table).unwrap_or(LINES.len() - 1));
     let (across, small, line) = (place > 0, place > 1, LINES[place] as f64);
-    let total: usize = columns.iter().map(|column| column.width + 2).sum();
-    let wraps = total as f64 > line;
+    let wraps = total(&columns) as f64 > line;
     let layout = if wraps {
         shared_layout(&columns, line)
     } else {

@@ -1,6 +1,5 @@
 //! Holds the ledger: every claim, figure and numbered equation of the paper, and its status.
 
-use super::error::Error;
 use crate::claims::Check;
 use crate::figures::Figure;
 use serde::{Deserialize, Serialize};
@@ -58,8 +57,4 @@ pub fn figures(figures: &[Figure]) -> Vec<FigureEntry> {
         ..FigureEntry::default()
     };
     figures.iter().map(figure).collect()
-}
-
-pub fn read(json: &str) -> Result<Ledger, Error> {
-    serde_json::from_str(json).map_err(|e| Error::Template(format!("ledger.json: {e}")))
 }

@@ -68,14 +68,6 @@ pub fn values(text: &str) -> impl Iterator<Item = (String, &str, Range<usize>)> 
     })
 }
 
-/// Adds a filter to the mark of a value; returns `None` if the text is no mark.
-pub fn with_filter(mark: &str, word: &str) -> Option<String> {
-    match pieces(mark).as_slice() {
-        [Piece::Value { id, filters }] => Some(framed(id, &format!("{filters} {word}"))),
-        _ => None,
-    }
-}
-
 /// Returns the style that filters ask for: `percent`, `significant3`.
 pub fn parse_filters(words: &str) -> Style {
     let mut style = Style::default();

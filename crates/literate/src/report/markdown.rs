@@ -86,11 +86,8 @@ fn block(block: &Block) -> String {
         Block::Lab { .. } => String::new(),
         Block::Bibliography(entries) => {
             let entry = |entry: &document::Reference| {
-                format!(
-                    "- {}{}",
-                    anchor(&format!("ref:{}", entry.key)),
-                    inlines(&entry.to_inlines())
-                )
+                let place = anchor(&format!("ref:{}", entry.key));
+                format!("- {place}{}", inlines(&entry.to_inlines()))
             };
             entries.iter().map(entry).collect::<Vec<_>>().join("\n")
         }
@@ -160,18 +157,13 @@ pub fn inlines(list: &[Inline]) -> String {
 }
 
 fn inlines_in(list: &[Inline], within: Within) -> String {
-    // Values are text and formulas, so that neighbours are seen; words that touch are one text.
+    // Values are text and formulas, so that neighbours are seen.
     let mut flat: Vec<Inline> = Vec::new();
     let expanded = list.iter().flat_map(|inline| match inline {
         Inline::Value { printed, .. } => document::to_inlines(printed),
         other => vec![other.clone()],
     });
-    for inline in expanded {
-        match (flat.last_mut(), &inline) {
-            (Some(Inline::Text(before)), Inline::Text(words)) => before.push_str(words),
-            _ => flat.push(inline),
-        }
-    }
+    expanded.for_each(|inline| document::push(&mut flat, inline));
     let (mut markdown, mut in_formula) = (String::new(), false);
     for (i, inline) in flat.iter().enumerate() {
         match inline {

@@ -64,8 +64,7 @@ pub fn write(
     Ok(format!("<span class=\"keep\">{html}</span>"))
 }
 
-/// Returns the number of opening braces less that of closing ones, `\left` and environments among
-/// them.
+/// Returns the number of opening braces, `\left` and `\begin` included, less that of closing ones.
 fn brace_balance(tex: &str) -> i32 {
     let depth = |sign| match sign {
         "{" | r"\left" | r"\begin" => 1,

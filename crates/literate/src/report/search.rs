@@ -8,85 +8,71 @@ type Passage = [String; 3];
 
 /// Returns a passage for each piece of a document that has text.
 pub fn passages(blocks: &[Block], document: &str) -> Vec<Passage> {
-    let mut index = Index { section: ["text".into(), document.into()], passages: Vec::new() };
-    index.blocks(blocks);
-    index.passages
+    let (mut section, mut name, mut passages) = ("text".into(), document.into(), Vec::new());
+    for block in blocks {
+        if let Block::Heading { level: 2.., number, id, text } = block {
+            section = heading_place(id.as_deref(), number.as_deref(), text);
+            name = heading(number.as_deref(), text);
+        }
+        for (place, text) in texts(block) {
+            let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+            if !words.is_empty() {
+                passages.push([place.unwrap_or_else(|| section.clone()), name.clone(), words]);
+            }
+        }
+    }
+    passages
 }
 
-struct Index {
-    section: [String; 2],
-    passages: Vec<Passage>,
+fn heading(number: Option<&str>, text: &[Inline]) -> String {
+    format!("{} {}", number.unwrap_or_default(), to_spelt_text(text)).trim().into()
 }
 
-impl Index {
-    fn add(&mut self, text: &str) {
-        self.add_at(&self.section[0].clone(), text);
-    }
-
-    fn add_at(&mut self, place: &str, words: &str) {
-        let words = words.split_whitespace().collect::<Vec<_>>().join(" ");
-        if !words.is_empty() {
-            self.passages.push([place.into(), self.section[1].clone(), words]);
+/// Returns the texts of a block, each with the id of its place, or `None` for that of its section.
+fn texts(block: &Block) -> Vec<(Option<String>, String)> {
+    match block {
+        // The title is the name of the document, and a page hides what cannot run on it.
+        Block::Heading { level: 1, .. } | Block::Lab { .. } => Vec::new(),
+        Block::Heading { number, text, .. } => vec![(None, heading(number.as_deref(), text))],
+        Block::Paragraph(text) => {
+            let equation = |inline: &Inline| match inline {
+                Inline::Display { formula, number, id: Some(id) } => {
+                    let words = format!("Equation ({number}): {}", tex::spell(&formula.to_tex()));
+                    Some((Some(place_on_page(id)), words))
+                }
+                _ => None,
+            };
+            let words = (None, to_spelt_text(text));
+            [words].into_iter().chain(text.iter().filter_map(equation)).collect()
         }
-    }
-
-    fn blocks(&mut self, blocks: &[Block]) {
-        for block in blocks {
-            match block {
-                // The title is the name of the document, and a page hides what cannot run on it.
-                Block::Heading { level: 1, .. } | Block::Lab { .. } => (),
-                Block::Heading { number, id, text, .. } => {
-                    let words = format!(
-                        "{} {}",
-                        number.as_deref().unwrap_or_default(),
-                        to_spelt_text(text)
-                    );
-                    let place = heading_place(id.as_deref(), number.as_deref(), text);
-                    self.section = [place, words.trim().into()];
-                    self.add(&words);
-                }
-                Block::Paragraph(text) => self.paragraph(text),
-                Block::Figure { id, number, caption, .. } => {
-                    let words = format!("Figure {number}. {}", to_spelt_text(caption));
-                    self.add_at(&place_on_page(id), &words);
-                }
-                Block::Table(table) => self.table(table),
-                Block::List { items, .. } => items.iter().for_each(|item| self.blocks(item)),
-                Block::Quote(blocks) => self.blocks(blocks),
-                Block::Code { code, .. } => self.add(code),
-                Block::Listing { number, caption, code, .. } => {
-                    self.add(&format!("Listing {number}. {}", to_spelt_text(caption)));
-                    self.add(code);
-                }
-                Block::Bibliography(entries) => {
-                    entries.iter().for_each(|entry| self.add(&to_spelt_text(&entry.to_inlines())));
-                }
-            }
+        Block::Figure { id, number, caption, .. } => {
+            let words = format!("Figure {number}. {}", to_spelt_text(caption));
+            vec![(Some(place_on_page(id)), words)]
         }
-    }
-
-    fn paragraph(&mut self, text: &[Inline]) {
-        self.add(&to_spelt_text(text));
-        for inline in text {
-            if let Inline::Display { formula, number, id: Some(id) } = inline {
-                let words = format!("Equation ({number}): {}", tex::spell(&formula.to_tex()));
-                self.add_at(&place_on_page(id), &words);
-            }
-        }
-    }
-
-    fn table(&mut self, Table { number, caption, head, rows, .. }: &Table) {
-        if let Some(number) = number {
-            self.add(&format!("Table {number}. {}", to_spelt_text(caption)));
-        }
-        for cells in [head].into_iter().chain(rows) {
-            let words = cells.iter().map(|cell| to_spelt_text(cell)).collect::<Vec<_>>().join(" ");
-            match cells.first().map(Vec::as_slice) {
-                Some([Inline::Anchor { id, .. }]) => {
-                    self.add_at(&place_on_page(id), &format!("Statement {words}"));
+        Block::Table(Table { number, caption, head, rows, .. }) => {
+            let caption = number.as_ref().map(|n| format!("Table {n}. {}", to_spelt_text(caption)));
+            let row = |cells: &Vec<Vec<Inline>>| {
+                let words =
+                    cells.iter().map(|cell| to_spelt_text(cell)).collect::<Vec<_>>().join(" ");
+                match cells.first().map(Vec::as_slice) {
+                    Some([Inline::Anchor { id, .. }]) => {
+                        (Some(place_on_page(id)), format!("Statement {words}"))
+                    }
+                    _ => (None, words),
                 }
-                _ => self.add(&words),
-            }
+            };
+            let rows = [head].into_iter().chain(rows).map(row);
+            caption.map(|words| (None, words)).into_iter().chain(rows).collect()
+        }
+        Block::List { items, .. } => items.iter().flatten().flat_map(texts).collect(),
+        Block::Quote(blocks) => blocks.iter().flat_map(texts).collect(),
+        Block::Code { code, .. } => vec![(None, code.clone())],
+        Block::Listing { number, caption, code, .. } => {
+            let caption = format!("Listing {number}. {}", to_spelt_text(caption));
+            vec![(None, caption), (None, code.clone())]
+        }
+        Block::Bibliography(entries) => {
+            entries.iter().map(|entry| (None, to_spelt_text(&entry.to_inlines()))).collect()
         }
     }
 }

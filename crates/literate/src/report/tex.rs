@@ -1,5 +1,4 @@
-//! Writes characters for pdflatex, knows the macros that every format supports, and spells formulas
-//! in characters for terminals.
+//! Writes characters for pdflatex, knows the macros of every format, and spells formulas in words.
 //!
 //! GitHub renders mathematics by MathJax 3 without the packages that define macros, or add HTML,
 //! actions and boxes. It refuses a formula that names one of a list of macros, `\operatorname`
@@ -43,8 +42,7 @@ pub fn unknown(tex: &str) -> BTreeSet<char> {
     tex.chars().filter(|c| !c.is_ascii() && !is_known(*c)).collect()
 }
 
-/// Writes the characters of a formula beyond ASCII as macros, so that they may stand in `\text{…}`
-/// too.
+/// Writes the characters of a formula beyond ASCII as macros, which may stand in `\text{…}` too.
 pub fn escape_formula(tex: &str) -> String {
     let named = |c: char| match in_text(c) {
         _ if c.is_ascii() => c.to_string(),
@@ -73,7 +71,7 @@ fn in_text(c: char) -> Option<&'static str> {
     match c {
         '\u{a0}' => Some("~"),
         '\u{202f}' | '\u{2009}' => Some(r"\,"),
-        c => TEXT.get(&*c.encode_utf8(&mut [0; 4])).copied(),
+        c => NAMED[0].get(&*c.encode_utf8(&mut [0; 4])).copied(),
     }
 }
 
@@ -82,26 +80,11 @@ pub fn pairs(list: &str) -> BTreeMap<&str, &str> {
     words.chunks_exact(2).map(|pair| (pair[0], pair[1])).collect()
 }
 
-static TEXT: LazyLock<BTreeMap<&str, &str>> = LazyLock::new(|| {
-    pairs(
-        r"– --  — ---  ‑ -  ‘ `  ’ '  “ ``  ” ''  … \ldots{}  § \S{}  © \textcopyright{}
-          ‰ \textperthousand{}  ° \textdegree{}  « \guillemotleft{}  » \guillemotright{}  € \texteuro{}",
-    )
+/// Characters with their names in running text and in formulas, which spell formulas too.
+static NAMED: LazyLock<[BTreeMap<&str, &str>; 2]> = LazyLock::new(|| {
+    let (text, maths) = include_str!("characters.txt").split_once("\n\n").unwrap_or_default();
+    [text, maths].map(pairs)
 });
-
-const MATHS: &str = r"
-    α \alpha  β \beta  γ \gamma  δ \delta  ε \varepsilon  ζ \zeta  η \eta  θ \theta  κ \kappa
-    λ \lambda  μ \mu  µ \mu  ν \nu  ξ \xi  π \pi  ρ \rho  σ \sigma  τ \tau  φ \phi  χ \chi  ψ \psi
-    ω \omega  Γ \Gamma  Δ \Delta  Θ \Theta  Λ \Lambda  Π \Pi  Σ \Sigma  Φ \Phi  Ψ \Psi  Ω \Omega
-    ≤ \le  ≥ \ge  ≪ \ll  ≫ \gg  ≈ \approx  ≠ \ne  ≲ \lesssim  ≳ \gtrsim  ∼ \sim  ∝ \propto  ± \pm
-    − -  × \times  ÷ \div  · \cdot  ∗ \ast  √ \surd  ∞ \infty  → \to  ← \leftarrow  ↦ \mapsto
-    ⇒ \Rightarrow  ∈ \in  ∑ \sum  ∏ \prod  ∫ \int  ∂ \partial  ⌈ \lceil  ⌉ \rceil  ⌊ \lfloor
-    ⌋ \rfloor  ′ '  ✓ \checkmark  ✗ \times  ⁰ ^0  ¹ ^1  ² ^2  ³ ^3  ⁴ ^4  ⁵ ^5  ⁶ ^6  ⁷ ^7  ⁸ ^8
-    ⁹ ^9  ⁻ ^-  ₀ _0  ₁ _1  ₂ _2  ₃ _3  ₄ _4  ₅ _5  ₆ _6  ₇ _7  ₈ _8  ₉ _9  ₊ _+  ₋ _-  ½ \frac12
-    ¼ \frac14  ħ \hbar  ℏ \hbar";
-
-/// Characters in formulas, which spells formulas too.
-static TEX: LazyLock<BTreeMap<&str, &str>> = LazyLock::new(|| pairs(MATHS));
 
 /// Returns the name of a letter: `sigma` for σ.
 pub fn letter_name(c: char) -> Option<&'static str> {
@@ -110,7 +93,7 @@ pub fn letter_name(c: char) -> Option<&'static str> {
 }
 
 fn in_maths(c: char) -> Option<&'static str> {
-    TEX.get(&*c.encode_utf8(&mut [0; 4])).copied()
+    NAMED[1].get(&*c.encode_utf8(&mut [0; 4])).copied()
 }
 
 /// The macros that the manual lists, and those of environments.
@@ -164,9 +147,8 @@ pub fn unsupported(tex: &str) -> Option<String> {
     })
 }
 
-/// Spells a formula in characters: `p_{\mathrm{crit}}` as `p_crit`, `\sigma^{-3}` as `σ^-3`,
-/// `\frac{1}{2}` as `1/2`, `\sqrt{N+1}` as `√(N+1)`. A name that is not known stands without its
-/// backslash.
+/// Spells a formula in characters: `p_{\mathrm{crit}}` as `p_crit`, `\sqrt{N+1}` as `√(N+1)`. An
+/// unknown name stands without its backslash.
 pub fn spell(tex: &str) -> String {
     let (mut spelt, mut signs) = (String::new(), signs(tex).peekable());
     while signs.peek().is_some() {
@@ -205,7 +187,7 @@ fn spell_argument<'a>(signs: &mut impl Iterator<Item = &'a str>) -> String {
     if is_joined { format!("({})", argument.trim()) } else { argument }
 }
 
-/// Names that no character has in [`MATHS`].
+/// Macros that no character of a formula has for its name.
 static SPELT: LazyLock<BTreeMap<&str, &str>> = LazyLock::new(|| {
     pairs("epsilon ε  varphi φ  leq ≤  geq ≥  lt <  gt >  vert |  sqrt √  dots …  ldots …")
 });
@@ -218,9 +200,8 @@ fn spell_macro(name: &str) -> &str {
         "," | ";" | ":" | " " | "quad" | "qquad" | "thinspace" | "\\" => " ",
         other => {
             let is_named = |tex: &str| tex.strip_prefix('\\') == Some(other);
-            let character =
-                TEX.iter().find(|(_, tex)| is_named(tex)).map(|(character, _)| character);
-            character.or(SPELT.get(other)).unwrap_or(&other)
+            let character = NAMED[1].iter().find(|(_, tex)| is_named(tex));
+            character.map(|(character, _)| character).or(SPELT.get(other)).unwrap_or(&other)
         }
     }
 }

@@ -2,14 +2,14 @@
 
 use super::error::Error;
 use crate::experiments::Profile;
-use crate::input::is_control;
+use crate::input::{is_control, one_line};
 use crate::source::Sources;
 use crate::table::{Table, Tables};
 pub(crate) use crate::value::{Digits, Number, Provenance, Value, origin};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct ValueRegistry {
     values: BTreeMap<String, Value>,
@@ -42,8 +42,7 @@ impl ValueRegistry {
         self.tables.values().map(AsRef::as_ref)
     }
 
-    /// Lists the cells with these addresses among the values; all other cells stand in the data
-    /// files alone.
+    /// Lists the cells with these addresses among the values.
     pub(crate) fn keep_cells<'a>(&mut self, named: impl IntoIterator<Item = &'a str>) {
         for address in named {
             if let Some(cell) = self.cell(address).cloned() {
@@ -93,16 +92,17 @@ fn check_showable(value: &Value) -> Result<(), Error> {
         c => is_control(*c),
     };
     match value.id.chars().chain(words.chars()).find(hidden) {
-        Some(c) => Err(Error::Unshowable(value.id.clone(), c)),
-        None if !value.number.is_finite() => Err(Error::NotFinite(value.id.clone())),
+        Some(c) => Err(Error::Message(format!(
+            "value {}: its words have the character U+{:04X}, which no format can show; leave it out where they come from",
+            one_line(&value.id, 200),
+            u32::from(c)
+        ))),
+        None if !value.number.is_finite() => {
+            let remedy = "leave it out or say why there is none in words";
+            Err(Error::Message(format!("value {}: not a finite number; {remedy}", value.id)))
+        }
         None => Ok(()),
     }
-}
-
-pub fn read(json: &str) -> Result<ValueRegistry, Error> {
-    let values = serde_json::from_str(json)
-        .map_err(|error| Error::Template(format!("values.json: {error}")))?;
-    Ok(ValueRegistry { values, ..ValueRegistry::default() })
 }
 
 #[cfg(test)]

@@ -1,11 +1,11 @@
 //! Makes the files that all pages share: fonts, the cards of their numbers, and the index of data.
 
+use super::super::assemble::Input;
 use super::super::card::Cards;
 use super::super::document::{self, Inline};
 use super::super::edition::Edition;
 use super::super::error::Error;
 use super::super::folder::Files;
-use super::super::input::Input;
 use super::super::labels::Labels;
 use super::Page;
 use crate::figures::escape;
@@ -28,7 +28,7 @@ pub fn files(
     labels: &Labels,
 ) -> Result<Files, Error> {
     let write = |id: &String| {
-        let unknown = || Error::Template(format!("there is no value {id}"));
+        let unknown = || Error::Message(format!("there is no value {id}"));
         let (page, card) = (Page::new(input), cards.get(id).ok_or_else(unknown)?);
         let resolved = |inline: &Inline| match inline.clone() {
             Inline::Reference { to, label, .. } => {
@@ -44,8 +44,8 @@ pub fn files(
         };
         let rows: Vec<String> = card.rows.iter().map(row).collect();
         let title = page.inlines(&card.title);
-        Error::check(page.errors.into_inner())?;
-        Ok((title, escape(&card.lead), rows))
+        let fault = page.errors.into_inner().pop();
+        fault.map_or(Ok((title, escape(&card.lead), rows)), Err)
     };
     let written = ids.par_iter().map(write).collect::<Vec<Result<_, Error>>>();
     let (mut rows, mut indices, mut cards_by_id) = (Vec::new(), BTreeMap::new(), BTreeMap::new());

@@ -5,7 +5,6 @@ use super::Page;
 use crate::claims::Verdict;
 use crate::figures::escape;
 use pulldown_cmark::Alignment;
-use std::fmt::Write as _;
 
 const TEXT: usize = 100;
 /// Columns whose cells have more characters than this get a minimum width.
@@ -38,72 +37,62 @@ impl Page<'_> {
         let longest =
             |i: usize| rows.iter().map(|row| to_plain_text(&row[i]).len()).max().unwrap_or(0);
         let longest: Vec<usize> = (0..columns.len()).map(longest).collect();
-        let class = |i: usize| {
-            let class = match columns[i] {
-                Alignment::Right => Some("right"),
-                Alignment::Center => Some("centre"),
-                _ => WIDTHS.iter().find(|(least, _)| longest[i] > *least).map(|(_, class)| *class),
-            };
-            class.map_or(String::new(), |class| format!(" class=\"{class}\""))
-        };
-        let has_words = |cell: &Vec<Inline>| {
-            let is_word = |inline: &Inline| matches!(inline, Inline::Text(text) if text.contains(char::is_alphabetic));
-            cell.iter().any(is_word)
-        };
+        let is_word = |inline: &Inline| matches!(inline, Inline::Text(text) if text.contains(char::is_alphabetic));
         let texts = longest.iter().any(|length| *length > TEXT) && columns.len() > FEW;
         let many = columns.len() >= MANY || texts;
-        let lists = many && head.iter().all(has_words);
-        // A browser forgets that these are tables once style sheets lay them out as lists.
-        let [table, line, field, column] = match (lists, many) {
-            (true, _) => [
-                " class=\"lists\" role=\"table\"",
-                " role=\"row\"",
-                " role=\"cell\"",
-                " role=\"columnheader\"",
-            ],
-            (false, true) => [" class=\"many\"", "", "", ""],
-            (false, false) => [""; 4],
-        };
+        let lists = many && head.iter().all(|cell| cell.iter().any(is_word));
         // One row of numbers below signs of verdicts is a bar, each part as wide as its number.
         let signs: Vec<char> =
             head.iter().filter_map(|cell| to_plain_text(cell).chars().next()).collect();
         let is_sign = |sign: &char| Verdict::ALL.iter().any(|verdict| verdict.sign() == *sign);
         let is_bar = rows.len() == 1 && signs.len() == head.len() && signs.iter().all(is_sign);
-        let table = if is_bar { " class=\"bar\"" } else { table };
-        let class = |i: usize| match is_bar {
-            true => {
-                format!(" style=\"--n: {}\" data-sign=\"{}\"", to_plain_text(&rows[0][i]), signs[i])
-            }
-            false => class(i),
+        // A browser forgets that these are tables once style sheets lay them out as lists.
+        let role = |name| if lists { format!(" role=\"{name}\"") } else { String::new() };
+        let [row_role, cell_role, head_role] = ["row", "cell", "columnheader"].map(role);
+        let kind = match (is_bar, lists, many) {
+            (true, ..) => " class=\"bar\"",
+            (_, true, _) => " class=\"lists\" role=\"table\"",
+            (.., true) => " class=\"many\"",
+            _ => "",
         };
-        let mut html = format!("<table{table}>\n<thead><tr{line}>");
+        let class = |i: usize| {
+            let width = || WIDTHS.iter().find(|(least, _)| longest[i] > *least);
+            let class = match columns[i] {
+                _ if is_bar => {
+                    let number = to_plain_text(&rows[0][i]);
+                    return format!(" style=\"--n: {number}\" data-sign=\"{}\"", signs[i]);
+                }
+                Alignment::Right => Some("right"),
+                Alignment::Center => Some("centre"),
+                _ => width().map(|(_, class)| *class),
+            };
+            class.map_or(String::new(), |class| format!(" class=\"{class}\""))
+        };
+        let mut html = format!("<table{kind}>\n<thead><tr{row_role}>");
         for (i, cell) in head.iter().enumerate() {
             let mut words = self.inlines(cell);
             // Some screen readers find no words in mathematics.
             if matches!(cell.as_slice(), [Inline::Maths(_)]) {
-                let to_spelt_text = escape(&to_spelt_text(cell));
+                let spelt = escape(&to_spelt_text(cell));
                 words = format!(
-                    "<span aria-hidden=\"true\">{words}</span><span class=\"unseen\">{to_spelt_text}</span>"
+                    "<span aria-hidden=\"true\">{words}</span><span class=\"unseen\">{spelt}</span>"
                 );
             }
-            let _ = if words.trim().is_empty() {
-                write!(html, "<td{}></td>", class(i))
-            } else {
-                write!(html, "<th scope=\"col\"{column}{}>{words}</th>", class(i))
+            html += &match words.trim() {
+                "" => format!("<td{}></td>", class(i)),
+                _ => format!("<th scope=\"col\"{head_role}{}>{words}</th>", class(i)),
             };
         }
-        html.push_str("</tr></thead>\n<tbody>\n");
+        html += "</tr></thead>\n<tbody>\n";
         for row in rows {
-            let _ = write!(html, "<tr{line}>");
+            html += &format!("<tr{row_role}>");
             for (i, cell) in row.iter().enumerate() {
-                let name = head.get(i).filter(|_| lists);
-                let name = name.map(|head| {
-                    format!(" data-name=\"{}\"", escape(&raised(&to_spelt_text(head))))
-                });
+                let name = head.get(i).filter(|_| lists).map(|head| raised(&to_spelt_text(head)));
+                let name = name.map(|name| format!(" data-name=\"{}\"", escape(&name)));
                 let (name, words) = (name.unwrap_or_default(), self.inlines(cell));
-                let _ = write!(html, "<td{field}{}{name}>{words}</td>", class(i));
+                html += &format!("<td{cell_role}{}{name}>{words}</td>", class(i));
             }
-            html.push_str("</tr>\n");
+            html += "</tr>\n";
         }
         html + "</tbody>\n</table>"
     }

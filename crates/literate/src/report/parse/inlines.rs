@@ -1,12 +1,12 @@
 //! Reads running text: words, formulas, code, references and values.
 
-use super::super::document::{Formula, Inline, Part, in_one_line};
-use super::super::error::{Error, Thing};
+use super::super::document::{Formula, Inline, Part, in_one_line, push};
+use super::super::error::{Error, Thing, fault};
 use super::super::lint;
 use super::super::mark::{self, Piece, pieces};
 use super::super::tex;
 use super::brackets::bracketed;
-use super::{FIGURE_NOT_ALONE, Reader, UNSUPPORTED_MARKUP, fault, is_block};
+use super::{FIGURE_NOT_ALONE, Reader, UNSUPPORTED_MARKUP, is_block};
 use crate::experiments::Profile;
 use crate::input::one_line;
 use crate::print::{Printed, print};
@@ -52,11 +52,11 @@ impl Reader<'_> {
             Event::Code(code) => {
                 let is_digits =
                     |(_, numeral): &(usize, String)| numeral.starts_with(|c: char| c.is_numeric());
-                let numbers = lint::find_numbers(&self.filled.text, range, self.declared);
+                let numbers = lint::find_numbers(&self.filled.text, range, self.input.declared);
                 self.note_hard_coded(numbers.into_iter().filter(is_digits));
                 Inline::Code(self.to_plain_text(&code)?)
             }
-            Event::InlineMath(_) if self.depth_without_formulas > 0 => {
+            Event::InlineMath(_) if self.depth.without_formulas > 0 => {
                 return Err(fault("GitHub renders no formula in emphasis or a link; move it out"));
             }
             Event::InlineMath(_) if self.filled.text[..range.start].ends_with(forbids_formula) => {
@@ -80,7 +80,7 @@ impl Reader<'_> {
     fn note_hard_coded(&mut self, numbers: impl IntoIterator<Item = (usize, String)>) {
         for (offset, numeral) in numbers {
             if self.filled.is_typed(offset) {
-                self.note_error(offset, Error::HardCoded(numeral));
+                self.note_error(offset, Error::hard_coded(&numeral));
             }
         }
     }
@@ -99,23 +99,21 @@ impl Reader<'_> {
 
     /// Notes what beside a value changes its unit or sign, and digits that drop its error.
     fn check_values(&mut self, range: &Range<usize>, is_maths: bool) {
-        let (filled, values) = (self.filled, self.values);
-        let source = &filled.text;
+        let source = &self.filled.text;
         for (id, filters, at) in mark::values(&source[range.clone()]) {
-            let (offset, end) = (range.start + at.start, range.start + at.end);
+            let Some(value) = self.input.values.get(&id) else { continue };
+            let (before, after) =
+                (&source[..range.start + at.start], &source[range.start + at.end..]);
             let style = mark::parse_filters(filters);
-            if let Some(value) = values.get(&id) {
-                let has_error =
-                    |digits: &Digits| matches!(digits, Digits::Error(_)) && style.digits.is_some();
-                let drops_error =
-                    matches!(&value.number, Number::Real { digits, .. } if has_error(digits));
-                let problem =
-                    format!("«{id}» has a standard error, which `significant` drops; leave it out");
-                let beside =
-                    || lint::conflict(&source[..offset], &source[end..], value, style, is_maths);
-                if let Some(problem) = drops_error.then_some(problem).or_else(beside) {
-                    self.note_error(offset, Error::Template(problem));
-                }
+            let has_error = matches!(value.number, Number::Real { digits: Digits::Error(_), .. });
+            let problem = if has_error && style.digits.is_some() {
+                let problem = "has a standard error, which `significant` drops; leave it out";
+                Some(format!("«{id}» {problem}"))
+            } else {
+                lint::conflict(before, after, value, style, is_maths)
+            };
+            if let Some(problem) = problem {
+                self.note_error(before.len(), Error::Message(problem));
             }
         }
     }
@@ -134,23 +132,22 @@ impl Reader<'_> {
         if matches!(&tag, Tag::Link { title, .. } if !title.is_empty()) {
             return Err(fault("a link has no title, which print cannot show; write it in words"));
         }
-        let hides = matches!(tag, Tag::Emphasis | Tag::Link { .. });
-        (self.spans, self.depth_without_formulas) =
-            (self.spans + 1, self.depth_without_formulas + usize::from(hides));
+        let outer = self.depth;
+        self.depth.spans += 1;
+        self.depth.without_formulas += usize::from(matches!(tag, Tag::Emphasis | Tag::Link { .. }));
         // Readers and writers of nested markup are recursive.
-        if self.spans > 40 {
+        if self.depth.spans > 40 {
             return Err(fault("emphasis is nested too deeply"));
         }
         let words = self.inlines_in_line()?;
-        self.spans -= 1;
-        self.depth_without_formulas -= usize::from(hides);
+        self.depth = outer;
         self.events.next();
         Ok(match tag {
             Tag::Emphasis => Inline::Emphasis(words),
             Tag::Strong => Inline::Strong(words),
             Tag::Link { dest_url, .. } => {
                 let to = self.to_plain_text(&dest_url)?;
-                self.places.add(Thing::Link(to.clone()), range.start);
+                self.places.add(Thing::Link, &to, range.start);
                 Inline::Link { to, words }
             }
             Tag::Image { .. } => return Err(fault(FIGURE_NOT_ALONE)),
@@ -166,6 +163,12 @@ impl Reader<'_> {
                 return Err(fault(format!("[!{id}] {problem}, or a place as [!claim:id]")));
             }
             self.add_id("claim", id, offset)?;
+            let known = self.input.claims.iter().map(|claim| claim.id.as_str());
+            let name = id.trim_start_matches("claim:");
+            if known.clone().all(|known| known != name) {
+                let problem = format!("[!{id}]: there is no statement with this id");
+                return Err(Error::unknown(Thing::Id, name, &problem, known));
+            }
             return Ok(Inline::Anchor { id: id.to_string(), number: String::new() });
         }
         let is_id = |id: &&str| !id.is_empty() && !id.contains([',', ' ', '\n', '@']);
@@ -175,8 +178,8 @@ impl Reader<'_> {
                         [@fig:2; @fig:3]; write a page or section into the sentence";
             return Err(fault(format!("[{reference}]: {problem}")));
         };
-        for id in ids.iter().cloned().chain([ids.join("; ")]) {
-            self.places.add(Thing::Reference(id), offset);
+        for id in ids.iter().chain([&ids.join("; ")]) {
+            self.places.add(Thing::Reference, id, offset);
         }
         Ok(Inline::Unresolved { ids, in_sentence: false })
     }
@@ -203,7 +206,7 @@ impl Reader<'_> {
             self.read_text(before, part.start..cut.start, inlines)?;
             if cut != id_at {
                 let id = source[cut.start + 1..cut.end].to_string();
-                self.places.add(Thing::Reference(id.clone()), cut.start);
+                self.places.add(Thing::Reference, &id, cut.start);
                 inlines.push(Inline::Unresolved { ids: vec![id], in_sentence: true });
             }
             return self.read_text(after, cut.end..part.end, inlines);
@@ -216,7 +219,7 @@ impl Reader<'_> {
             let problem = if self.filled.is_typed(offset) { problem } else { GROUP_AS_VALUE };
             return Err(fault(problem).with_place(self.filled.place(offset)));
         }
-        self.note_hard_coded(lint::find_numbers(source, part.clone(), self.declared));
+        self.note_hard_coded(lint::find_numbers(source, part.clone(), self.input.declared));
         self.check_values(&part, false);
         // A backslash before a backslash is meant.
         let escaped = usize::from(source[..part.start].ends_with('\\') && text.starts_with('\\'));
@@ -226,10 +229,7 @@ impl Reader<'_> {
                 Piece::Text(words) if words.contains(mark::is_of_mark) => {
                     return Err(fault("a part of the name of a value was cut off; name it whole"));
                 }
-                Piece::Text(words) => match inlines.last_mut() {
-                    Some(Inline::Text(before)) => before.push_str(words),
-                    _ => inlines.push(Inline::Text(words.to_string())),
-                },
+                Piece::Text(words) => push(inlines, Inline::Text(words.to_string())),
                 Piece::Value { id, filters } => {
                     let printed = self.print_value(&id, filters)?;
                     inlines.push(Inline::Value { id, printed });
@@ -264,15 +264,14 @@ impl Reader<'_> {
         if let Some(problem) =
             has_index.then(|| bare_index.into()).or_else(|| tex::unsupported(&tex))
         {
-            return Err(Error::Maths { tex, problem });
+            return Err(Error::formula(tex, &problem));
         }
         let formula = bracketed(formula.0);
-        self.places.add(Thing::Formula(formula.to_tex()), offset);
+        self.places.add(Thing::Formula, &formula.to_tex(), offset);
         Ok(formula)
     }
 
-    /// Reads a displayed equation: cuts `\tag{18}` out of it, or takes the id `{#eq:name}` behind
-    /// it.
+    /// Reads a displayed equation: cuts `\tag{18}` out of it, or takes `{#eq:name}` behind it.
     fn display(&mut self, tex: &str, range: Range<usize>) -> Result<Inline, Error> {
         let behind = &self.filled.text[range.end..];
         let id =
@@ -291,6 +290,15 @@ impl Reader<'_> {
             (id, number, tex) = (Some(tag_id), tag.into(), format!("{}{}", before.trim(), after));
         }
         let formula = self.formula(tex.trim(), range.start)?;
+        let digits: String = formula.to_tex().chars().filter(char::is_ascii_digit).collect();
+        let mut listed = self.input.edition.equations.iter();
+        let listed = listed.find(|listed| listed.number.to_string() == number);
+        let expected = listed.and_then(|equation| equation.digits).unwrap_or(&digits);
+        if expected != digits {
+            let problem =
+                format!("equation ({number}) has the digits {digits}, in the list {expected}");
+            self.note_error(range.start, Error::Message(problem));
+        }
         Ok(Inline::Display { formula, id, number })
     }
 
@@ -306,19 +314,19 @@ impl Reader<'_> {
     }
 
     fn print_value(&self, id: &str, filters: &str) -> Result<Printed, Error> {
-        let unknown = || Error::Template(format!("there is no value {id}"));
-        let value = self.values.get(id).ok_or_else(unknown)?;
+        let unknown = || Error::Message(format!("there is no value {id}"));
+        let value = self.input.values.get(id).ok_or_else(unknown)?;
         // The samples of a quick profile may be too small for any number.
-        let is_dash = self.is_in_cell || self.values.profile() == Some(Profile::Quick);
+        let is_dash = self.is_in_cell || self.input.values.profile() == Some(Profile::Quick);
         if value.number == Number::None && !is_dash {
-            return Err(Error::NoNumber(id.into()));
+            let remedy = "say what stands there, by «… | otherwise(words=\"…\")»";
+            return Err(Error::Message(format!("{id} has no number; {remedy}")));
         }
         Ok(print(&value.number, mark::parse_filters(filters)))
     }
 }
 
-/// Returns whether a formula cannot follow: GitHub renders one only after a space or an opening
-/// bracket.
+/// Returns whether no formula can follow: GitHub renders one after a space or an opening bracket.
 fn forbids_formula(c: char) -> bool {
     c.is_alphanumeric() || ")]$".contains(c) || c == mark::CLOSE
 }

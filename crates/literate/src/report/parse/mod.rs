@@ -1,5 +1,4 @@
-//! Reads filled Markdown into the tree of `document`, in one pass, and looks for hard-coded
-//! numbers.
+//! Reads filled Markdown into the tree of `document`, and looks for hard-coded numbers.
 //!
 //! The manual ([`crate::manual`]) lists all markup. Whatever else Markdown reads is refused, and so
 //! is markup that is not closed.
@@ -7,34 +6,31 @@
 mod brackets;
 mod inlines;
 
+use super::assemble::Input;
+use super::card::links;
 use super::document::{Block, Inline, Table, to_plain_text};
-use super::error::{Error, Thing};
+use super::edition::Document;
+use super::error::{Error, Thing, fault};
 use super::filled::{Filled, Places};
 use super::labels::check_kind;
 use super::latex;
-use super::lint::Declared;
-use super::values::ValueRegistry;
-use crate::source::Sources;
+use crate::input::one_line;
 use pulldown_cmark::{
     Alignment, BrokenLink, CodeBlockKind, CowStr, Event, Options, Parser, Tag, TagEnd,
 };
 use std::ops::Range;
 
-#[derive(Debug)]
-pub struct Parsed<'a> {
+/// A document as it is read.
+pub struct Part<'a> {
+    pub document: Document,
     /// The tree, without the blocks that have an error.
     pub blocks: Vec<Block>,
     pub places: Places<'a>,
     pub errors: Vec<Error>,
 }
 
-/// Parses filled Markdown, in which `values` replace marks and `declared` phrases may have numbers.
-pub fn parse<'a>(
-    filled: &'a Filled,
-    values: &'a ValueRegistry,
-    declared: &'a Declared,
-    sources: &'a Sources,
-) -> Parsed<'a> {
+/// Parses the filled Markdown of a document.
+pub fn parse<'a>(filled: &'a Filled, document: Document, input: &Input<'a>) -> Part<'a> {
     let options =
         Options::ENABLE_MATH | Options::ENABLE_TABLES | Options::ENABLE_HEADING_ATTRIBUTES;
     let callback = |link: BrokenLink<'_>| {
@@ -46,49 +42,47 @@ pub fn parse<'a>(
     let mut reader = Reader {
         events: events.into_iter().peekable(),
         filled,
-        values,
-        declared,
-        sources,
+        input: *input,
         id_at: 0..0,
         end_of_cut_formula: 0,
-        depth: 0,
-        lists: 0,
-        spans: 0,
-        depth_without_formulas: 0,
+        depth: Depth::default(),
         has_title: false,
         is_in_cell: false,
-        places: Places::new(filled, values),
+        places: Places::new(filled, input.values),
         errors: Vec::new(),
     };
     let blocks = reader.blocks().unwrap_or_default();
+    if reader.errors.is_empty() && !reader.has_title {
+        reader.note_error(0, fault("a report begins with its title, `# Words`"));
+    }
     let is_hidden = |(_, c): &(usize, char)| c.is_control() && !['\n', '\t'].contains(c);
     if let Some((offset, c)) = filled.text.char_indices().find(is_hidden) {
         reader.note_error(offset, Error::NoLatex(c));
     }
-    Parsed { blocks, places: reader.places, errors: reader.errors }
+    let Reader { places, errors, .. } = reader;
+    Part { document, blocks, places, errors }
 }
 
-fn fault(problem: impl Into<String>) -> Error {
-    Error::Markup(problem.into())
+/// Numbers of what stands around the text that is being read.
+#[derive(Clone, Copy, Default)]
+struct Depth {
+    lists: usize,
+    quotes: usize,
+    /// Emphasis and links.
+    spans: usize,
+    /// Those of them in which GitHub renders no formula.
+    without_formulas: usize,
 }
 
 struct Reader<'a> {
     events: std::iter::Peekable<std::vec::IntoIter<(Event<'a>, Range<usize>)>>,
     filled: &'a Filled,
-    values: &'a ValueRegistry,
-    declared: &'a Declared,
-    sources: &'a Sources,
+    input: Input<'a>,
     /// Where an id begins and ends that is no text: behind a caption, a picture or an equation.
     id_at: Range<usize>,
     /// Where a formula ends that Markdown has cut; only its first error is reported.
     end_of_cut_formula: usize,
-    /// Number of lists and quotations around what is being read, and of lists alone.
-    depth: usize,
-    lists: usize,
-    /// Number of emphasis and links around it.
-    spans: usize,
-    /// Those of them in which GitHub renders no formula.
-    depth_without_formulas: usize,
+    depth: Depth,
     has_title: bool,
     /// Whether it is a cell of a table, where a dash stands for no number.
     is_in_cell: bool,
@@ -115,14 +109,14 @@ impl<'a> Reader<'a> {
     }
 
     fn add_id(&mut self, kind: &str, id: &str, offset: usize) -> Result<(), Error> {
-        self.places.add(Thing::Id(id.into()), offset);
+        self.places.add(Thing::Id, id, offset);
         check_kind(kind, id)
     }
 
     /// Reads blocks up to the end of what contains them. After an error reading goes on with the
     /// next block, except in lists and quotations.
     fn blocks(&mut self) -> Result<Vec<Block>, Error> {
-        let (mut blocks, within) = (Vec::new(), self.depth > 0);
+        let (mut blocks, within) = (Vec::new(), self.depth.lists + self.depth.quotes > 0);
         while let Some((event, Range { start, end })) = self.events.peek().cloned() {
             if matches!(event, Event::End(_)) {
                 break;
@@ -133,8 +127,7 @@ impl<'a> Reader<'a> {
                 Err(error) if within => return Err(error),
                 Err(error) => {
                     self.errors.push(error);
-                    (self.depth, self.lists, self.spans, self.depth_without_formulas) =
-                        (0, 0, 0, 0);
+                    self.depth = Depth::default();
                     // Cells that Markdown adds to a row are empty and begin at its end.
                     let is_inside = |range: &Range<usize>| range.start < end || range.end <= end;
                     while self.events.next_if(|(_, range)| is_inside(range)).is_some() {}
@@ -144,15 +137,15 @@ impl<'a> Reader<'a> {
         Ok(blocks)
     }
 
-    fn inner(&mut self, is_list: bool) -> Result<Vec<Block>, Error> {
-        let outer = (self.depth, self.lists);
-        (self.depth, self.lists) = (self.depth + 1, self.lists + usize::from(is_list));
-        if self.lists > 4 || self.depth > 6 {
+    /// Reads blocks that stand within one more list or quotation.
+    fn inner(&mut self, depth: Depth) -> Result<Vec<Block>, Error> {
+        if depth.lists > 4 || depth.lists + depth.quotes > 6 {
             let problem = "lists stand at most four deep in LaTeX, and with quotations six deep";
             return Err(fault(problem));
         }
+        let outer = std::mem::replace(&mut self.depth, depth);
         let blocks = self.blocks()?;
-        (self.depth, self.lists) = outer;
+        self.depth = outer;
         Ok(blocks)
     }
 
@@ -193,11 +186,13 @@ impl<'a> Reader<'a> {
                 let number = (!bare).then(String::new);
                 Block::Heading { level, number, id, text }
             }
-            Tag::BlockQuote(_) => Block::Quote(self.inner(false)?),
+            Tag::BlockQuote(_) => {
+                Block::Quote(self.inner(Depth { quotes: self.depth.quotes + 1, ..self.depth })?)
+            }
             Tag::List(start) => {
                 let mut items = Vec::new();
                 while self.begins(|tag| *tag == Tag::Item).is_some() {
-                    items.push(self.inner(true)?);
+                    items.push(self.inner(Depth { lists: self.depth.lists + 1, ..self.depth })?);
                     self.events.next();
                 }
                 Block::List { start, items }
@@ -234,6 +229,7 @@ impl<'a> Reader<'a> {
                 return Err(fault(UNSUPPORTED_MARKUP));
             };
             *first = first.trim_start_matches(word).to_string();
+            let problem = "a caption must be followed by its table, or have an id {#lst:…} and be followed by its code";
             let mut block = self.block()?;
             match (&mut block, id) {
                 (Block::Table(table), id) if *kind == "tab" => {
@@ -242,17 +238,11 @@ impl<'a> Reader<'a> {
                 (Block::Listing { id: listing_id, caption, .. }, Some(id)) if *kind == "lst" => {
                     (*listing_id, *caption) = (id, inlines);
                 }
-                _ => {
-                    return Err(fault(
-                        "a caption must be followed by its table, or have an id {#lst:…} and be followed by its code",
-                    ));
-                }
+                _ => return Err(fault(problem)),
             }
             return Ok(block);
         }
-        if let [Inline::Unresolved { ids, .. }] = inlines.as_slice()
-            && ids == &["bibliography"]
-        {
+        if matches!(&inlines[..], [Inline::Unresolved { ids, .. }] if *ids == ["bibliography"]) {
             return Ok(Block::Bibliography(Vec::new()));
         }
         if let Some(Inline::Text(first)) = inlines.first_mut()
@@ -275,16 +265,37 @@ impl<'a> Reader<'a> {
         if !to_plain_text(&behind).trim().is_empty() {
             return Err(fault(FIGURE_NOT_ALONE));
         }
-        let file = path.rsplit('/').next().unwrap_or_default();
-        let name = file.rsplit_once('.').map_or(file, |(name, _)| name).to_string();
-        let files = [path.to_string(), String::new()];
+        let Input { figures, project, .. } = self.input;
+        let paths: Vec<String> =
+            figures.iter().map(|figure| format!("figures/{}", figure.names()[0])).collect();
+        let Some(index) = paths.iter().position(|known| known == path) else {
+            let problem = format!(
+                "there is no figure {}; use figures/NAME.svg of a figure of the paper; a file becomes one by Figure::picture",
+                one_line(path, 200)
+            );
+            let paths = paths.iter().map(String::as_str);
+            return Err(Error::unknown(Thing::Link, path, &problem, paths));
+        };
+        let figure = &figures[index];
+        let (name, files, alt) =
+            (figure.id.clone(), figure.names(), figure.description.text.clone());
+        let data: Vec<String> =
+            figure.data.iter().map(|file| format!("data/{}", file.name)).collect();
+        let code = project.sources.file(&figure.source).map(|file| format!("../{file}"));
+        let mut origin = Vec::new();
+        for (name, files) in [("Data: ", data), ("Code: ", code.into_iter().collect())] {
+            if !files.is_empty() {
+                let blank = if origin.is_empty() { "" } else { " " };
+                origin.push(Inline::Text(format!("{blank}{name}")));
+                origin.extend(links(&files));
+                origin.push(Inline::Text(".".into()));
+            }
+        }
         let id = id.unwrap_or_else(|| format!("fig:{name}"));
         self.add_id("fig", &id, at)?;
-        self.places.add(Thing::Picture(path.into()), at);
         let given = id.trim_start_matches("fig:");
         let digits = given.trim_start_matches(|c: char| c.is_ascii_uppercase());
         let number = if digits.parse::<u32>().is_ok() { given.into() } else { String::new() };
-        let (alt, origin) = Default::default();
         Ok(Block::Figure { id, number, name, files, alt, origin, caption })
     }
 
@@ -302,9 +313,9 @@ impl<'a> Reader<'a> {
         match language.split_once(' ') {
             _ if !closed => Err(fault(FENCE)),
             Some((_, item)) => {
-                let listing = self.sources.listing(item).map_err(Error::Markup)?;
+                let listing = self.input.project.sources.listing(item).map_err(fault)?;
                 let (id, number, caption) = (String::new(), String::new(), Vec::new());
-                let file = self.sources.file(item).unwrap_or_default().to_string();
+                let file = self.input.project.sources.file(item).unwrap_or_default().to_string();
                 let (item, code) = (item.to_string(), listing);
                 let words = |words: &str| Inline::Text(words.into());
                 let link = Inline::Link { to: format!("../{file}"), words: vec![words(&file)] };

@@ -4,39 +4,9 @@ use super::*;
 use std::io::Write as _;
 use std::process::{Command, Stdio};
 
-/// Pieces of words, with signs of markup; `␣` is a blank, and `⏎` ends a line.
-const PIECES: &str = r##"a b Z é σ 0.5 7 · ␣ ␣ ␣ ␣␣ ␣␣␣␣ * ** _ __ ` `` ``` $ $$ | | \ \| \\ - -- --- -␣ +␣ 1.␣ 12) # ##
-    #␣ > = === [ ] ( ) [␣] [x] ](x) [a]:␣b ! ![ [!NOTE] [^1] < <b> </b> <!-- & &amp; &#35; ~ ~~ ~~~ @a @ {
-    } {#a} ^ % ␣% " ' '' ,, : :- :-: :: ; / « » − – → https://x.org/a_b*c www.x.org ^a$|^b$ $HOME/$USER US$
-    :x: 1:100:1000 C:\new{x} null ⏎ a␣b a␣b a␣b"##;
-
-/// Blocks around words `W`, and what readers see of each.
-const BLOCKS: &str = r"
-W => W
-aWb => aWb
-W and WW => W and WW
-W⏎W => W W
-*W* => W
-a*W*b => aWb
-**W** *W* W => W W W
-**a *W* b**, => a W b,
-*aW* **Wb** => aW Wb
-_a*W*b_ _a**W**b_ => aWb aWb
-`W` => W
-a`W`W => aWW
-`aWb` => aWb
-[W](https://x.org/V) => W
-a\![aWb](data)W => a!aWbW
-W\![*W*](https://x.org/a\)V) => W!W
-- W⏎- aW⏎- `W` => W aW W
-3. W⏎4. *W* => W W
-> W⏎>⏎> aW => W aW
-> - W => W
-### W {.unnumbered} => W
-### aW {.unnumbered} => aW
-```⏎W⏎aWb⏎``` => W aWb
-- ~~~⏎  W⏎  ~~~ => W
-| a | b | c | d | e |⏎|--|--|--|--|--|⏎| W | `W` | a\| *W*! | [W](https://x.org/V\|) | aWb⏎| W | `W` | a | b | c | => a b c d e W W a| W! W aWb W W a b c";
+/// Pieces of words, with signs of markup, in which `␣` is a blank and `⏎` ends a line; and blocks
+/// around words `W` with what readers see of each, one a line.
+const DATA: &str = include_str!("data.txt");
 
 /// All text below an element, cut at the word *cut*, with one blank between words.
 fn read(xml: &str, top: &str, shows: fn(&str) -> bool) -> Vec<String> {
@@ -89,14 +59,15 @@ fn with_words(words: &[String], prose: &str) -> Result<Files, Error> {
 
 #[test]
 fn words_of_data_are_data() {
-    let pieces: Vec<&str> = PIECES.split_whitespace().collect();
+    let (pieces, blocks) = DATA.split_once("\n\n").unwrap();
+    let pieces: Vec<&str> = pieces.split_whitespace().collect();
     let mut state = 2007_u64;
     let mut random = |below: usize| {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
         (state >> 33) as usize % below
     };
     let (mut words, mut prose, mut shown) = (Vec::new(), String::new(), Vec::new());
-    let mixed = BLOCKS.lines().skip(1).cycle().take(400).map(|line| (line, None));
+    let mixed = blocks.lines().cycle().take(400).map(|line| (line, None));
     let alone = ["W => W", "- W⏎- aW => W aW"];
     let alone = pieces.iter().flat_map(|piece| alone.map(|line| (line, Some(piece))));
     for (line, piece) in mixed.chain(alone) {

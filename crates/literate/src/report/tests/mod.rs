@@ -5,6 +5,7 @@ mod damaged;
 mod data;
 mod documents;
 
+use super::filler::Filler;
 use super::*;
 use crate::claims::{Check, Kind};
 use crate::figures::Figure;
@@ -93,19 +94,24 @@ impl Given {
             values.add_tables(&Tables::from([(table.name(), Arc::new(table))]))?;
         }
         let templates = self.files.iter().map(|(path, text)| (*path, text.as_str()));
-        assemble(&Input {
-            templates: &Templates::from_files(templates.chain([("references.bib", BIB)])),
-            values: &values,
-            rows: &Default::default(),
-            claims: &self.claims,
-            figures: &self.figures,
-            lab: self.lab,
-            top: Some("../"),
-            edition: &self.edition,
-            project: &Project::new(toy()),
-            experiments: &[],
-            warn: &|_| (),
-        })
+        let templates = &Templates::from_files(templates.chain([("references.bib", BIB)]));
+        assemble(
+            Filler::new(templates)?,
+            &Input {
+                templates,
+                values: &values,
+                declared: &Default::default(),
+                rows: &Default::default(),
+                claims: &self.claims,
+                figures: &self.figures,
+                lab: self.lab,
+                top: Some("../"),
+                edition: &self.edition,
+                project: &Project::new(toy()),
+                experiments: &[],
+                warn: &|_| (),
+            },
+        )
     }
 }
 
@@ -148,7 +154,7 @@ report.html => You run <em>them</em>.
 lab.js => end();"##;
     has(&with, parts);
     assert!(!file(&without, "report.html").contains("You run"));
-    assert!(!without.contains_key(input::LAB));
+    assert!(!without.contains_key("lab.js"));
     for report in [&mut with, &mut without] {
         report.retain(|path, _| !folder::is_generated(path));
     }
