@@ -2,7 +2,7 @@
 //! √ and the functions of `pxfm` are used, never the platform's libm.
 //!
 //! - Numbers beyond f64: [`double_double`] has 32 digits, [`scaled`] the exponents of factorials.
-//! - [`roots`] and integrals ([`quadrature`]).
+//! - [`roots`], integrals ([`quadrature`]), and the fit of a [`decay`].
 //! - Samples: [`random`] streams that depend on their names only, [`statistics`], the
 //!   [`bootstrap`], and [`estimates`] with errors by the jackknife.
 
@@ -10,6 +10,7 @@
 
 #[cfg(feature = "statistics")]
 pub mod bootstrap;
+pub mod decay;
 pub mod double_double;
 #[cfg(feature = "statistics")]
 pub mod estimates;

@@ -6,6 +6,7 @@
 
 use super::pairs::{Pair, distance};
 use crate::experiments::prelude::*;
+use impact_numerics::decay::Decay;
 
 /// The law c + a u^(−b) with u = T/T₁, or ln T/ln T₁, where T₁ is the first transient.
 #[derive(Clone, Copy)]
@@ -26,55 +27,17 @@ pub(super) const LAWS: [Law; 4] = [
     Law { name: "logarithm_limit", limited: true, scale: LOG_LOG },
 ];
 
-pub(super) struct Fit {
-    pub limit: f64,
-    pub amplitude: f64,
-    pub exponent: f64,
-    /// The weighted sum of squares that is left.
-    pub misfit: f64,
-}
-
 impl Law {
-    /// Fits amplitude and limit for one exponent to points: ln u, distance and weight.
-    fn fit_amplitude(self, exponent: f64, points: &[[f64; 3]]) -> Fit {
-        let powers = points.iter().map(|[log, ..]| pxfm::f_exp(-exponent * log));
-        let powers: Vec<f64> = powers.collect();
-        let sum = |factor: &dyn Fn(f64, f64) -> f64| {
-            let terms = powers.iter().zip(points);
-            terms.map(|(x, [_, y, weight])| weight * factor(*x, *y)).sum::<f64>()
-        };
-        let [one, x, y] = [sum(&|_, _| 1.0), sum(&|x, _| x), sum(&|_, y| y)];
-        let [xx, xy] = [sum(&|x, _| x * x), sum(&|x, y| x * y)];
-        let free = (one * xy - x * y) / (one * xx - x * x);
-        let amplitude = if self.limited { free } else { xy / xx };
-        let limit = if self.limited { (y - amplitude * x) / one } else { 0.0 };
-        let rest = |x: f64, y: f64| y - limit - amplitude * x;
-        Fit { limit, amplitude, exponent, misfit: sum(&|x, y| rest(x, y) * rest(x, y)) }
-    }
-
-    /// Fits the exponent too, from about 1/20 to 20, by ever finer steps of its logarithm.
-    pub fn fit(self, points: &[[f64; 3]]) -> Option<Fit> {
-        let fit = |log: f64| self.fit_amplitude(pxfm::f_exp(log), points);
-        let with_misfit = |log: f64| (log, fit(log).misfit);
-        let (mut centre, mut half): (f64, f64) = (0.0, 3.0);
-        for _ in 0..9 {
-            let places = (-20..=20).map(|step| centre + half * f64::from(step) / 20.0);
-            centre = places.map(with_misfit).min_by(|(_, a), (_, b)| a.total_cmp(b))?.0;
-            half /= 10.0;
-        }
-        (points.len() >= 2 + usize::from(self.limited)).then(|| fit(centre))
-    }
-
     /// Estimates a number of the fit to the distances of one length, or returns `None` if a
     /// distance has no error.
-    pub fn estimate(self, pairs: &[Pair], number: fn(&Fit) -> f64) -> Option<Estimate> {
+    pub fn estimate(self, pairs: &[Pair], number: fn(&Decay) -> f64) -> Option<Estimate> {
         let weight = |pair: &Pair| pair.estimate(&distance).map(|d| 1.0 / (d.error * d.error));
         let weights = pairs.iter().map(weight).collect::<Option<Vec<f64>>>()?;
         pairs[0].estimate(&|first, without| {
             let log = |pair: &Pair| (self.scale)(pair.transient) - (self.scale)(first.transient);
             let point = |(pair, weight)| Some([log(pair), distance(pair, without)?, weight]);
             let points = pairs.iter().zip(weights.iter().copied()).map(point);
-            let fit = self.fit(&points.collect::<Option<Vec<_>>>()?)?;
+            let fit = Decay::fit(&points.collect::<Option<Vec<_>>>()?, self.limited)?;
             Some(number(&fit)).filter(|number| number.is_finite())
         })
     }
@@ -102,7 +65,7 @@ mod tests {
                 pair(time, &own.map(|own| 0.3 + y(own)), &[0.3; 5])
             };
             let pairs = [4.0, 16.0, 64.0, 256.0].map(pair_after);
-            let near = |number: fn(&Fit) -> f64, value: f64, error: f64| {
+            let near = |number: fn(&Decay) -> f64, value: f64, error: f64| {
                 let fitted = law.estimate(&pairs, number).unwrap();
                 let off = (fitted.value - value).abs().max((fitted.error - error).abs());
                 assert!(off < 1e-6, "{}: {fitted:?}", law.name);

@@ -63,7 +63,7 @@ fn fits(lengths: &[&[Pair]]) -> Table {
     let laws = Vec::from_iter(lengths.iter().flat_map(|pairs| LAWS.map(|law| (*pairs, law))));
     let estimate = |(pairs, law): &(&[Pair], Law), of| law.estimate(pairs, of);
     Table::builder("branches.fits", &laws, |row| row.0[0].chains())
-        .table_computed_by(origin(Law::fit))
+        .table_computed_by(origin(Law::estimate))
         .key("masses", "1", |row| row.0[0].masses as f64)
         .text_key("law", |row| row.1.name.into())
         .estimate("limit", SIGMA, "distance after unlimited time", |row| {
