@@ -14,10 +14,10 @@
 //! each gap of a cluster is hit once.
 
 use super::complementarity::contact_forces;
-use super::event::Event;
 use super::flight::{Motion, Phases};
 use super::force::Force;
 use super::simulation::{Awaits, Simulation, Waiting};
+use crate::Event;
 use crate::search::clock::Instant;
 use crate::search::local_frame::ROUNDING;
 use crate::search::outcome::Next;

@@ -4,14 +4,60 @@ use super::scenario::COMPONENTS;
 use super::simulation::Simulation;
 #[cfg(feature = "ensembles")]
 use super::topology::Topology;
-use super::{End, Error, Event, Impact, Scenario, State};
+use super::{Error, Impact, Scenario, State};
 use crate::search::outcome::{Counters, Graze};
 use std::ops::ControlFlow::{self, Break, Continue};
+
+/// What happens to the gaps of a chain, in the order of time; gaps are numbered as in [`Impact`].
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "lowercase"))]
+#[non_exhaustive]
+pub enum Event {
+    /// A gap closed, and its neighbours parted at once.
+    Impact(Impact),
+    /// Gaps are shut and pressed from now on, as a chattering or a slow impact ended, or at the
+    /// start.
+    Stick {
+        /// Time t, in the units of the scenario.
+        time: f64,
+        /// The gaps that were not pressed before, rising.
+        gaps: Vec<usize>,
+    },
+    /// Gaps in contact are pressed no longer, as their contact force vanished or a mass was hit.
+    Release {
+        /// Time t, in the units of the scenario.
+        time: f64,
+        /// The gaps that were pressed before, rising.
+        gaps: Vec<usize>,
+    },
+    /// A dip of which rounding cannot tell whether it reaches zero was taken for a miss.
+    Graze(Graze),
+}
+
+impl Event {
+    /// Returns the time of the event, in the units of the scenario.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        match self {
+            Event::Impact(Impact { time, .. }) | Event::Graze(Graze { time, .. }) => *time,
+            Event::Stick { time, .. } | Event::Release { time, .. } => *time,
+        }
+    }
+}
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    /// At its time: there is no further event up to then.
+    Reached,
+    /// Right after an event, as the observer asked for.
+    Stopped,
+}
 
 /// The simulation of one scenario, from event to event.
 ///
 /// A run ends at a time `until`, or earlier; the next call goes on from there. An event whose time
-/// is `until` is within the run.
+/// is `until` is within the run. All that run have the errors of [`run`](Engine::run).
 #[derive(Clone, Debug)]
 pub struct Engine(Components);
 
@@ -64,9 +110,6 @@ impl Engine {
     }
 
     /// Returns the further impacts up to time `until`, in order.
-    ///
-    /// # Errors
-    /// Those of [`run`](Engine::run).
     pub fn impacts(&mut self, until: f64) -> Result<Vec<Impact>, Error> {
         let mut impacts = Vec::new();
         self.observe(until, &mut |event, _| {
@@ -80,9 +123,6 @@ impl Engine {
 
     /// Returns the next impact up to time `until`, or `None` if there is no impact; the run stops
     /// right after it.
-    ///
-    /// # Errors
-    /// Those of [`run`](Engine::run).
     pub fn next_impact(&mut self, until: f64) -> Result<Option<Impact>, Error> {
         let mut next = None;
         self.observe(until, &mut |event, _| match event {
@@ -96,9 +136,6 @@ impl Engine {
     }
 
     /// Runs until time `until`; [`state`](Engine::state) then tells where the masses are.
-    ///
-    /// # Errors
-    /// Those of [`run`](Engine::run).
     pub fn advance(&mut self, until: f64) -> Result<(), Error> {
         self.observe(until, &mut |_, _| Continue(())).map(drop)
     }
@@ -135,9 +172,6 @@ impl Engine {
 
     /// Returns the time of the next event up to `until`, or `None` if there is no event, without
     /// going there. A gap that then closes without speed may leave no event.
-    ///
-    /// # Errors
-    /// Those of [`run`](Engine::run).
     pub fn next_event_time(&mut self, until: f64) -> Result<Option<f64>, Error> {
         call!(&mut self.0, simulation => simulation.next_time(simulation.end(until)?))
     }
@@ -165,9 +199,6 @@ impl Engine {
     }
 
     /// Returns the gaps in contact and their contact forces (≥ 0) at a time up to the next event.
-    ///
-    /// # Errors
-    /// Those of [`state`](Engine::state).
     pub fn contacts(&self, time: f64) -> Result<Vec<(usize, f64)>, Error> {
         call!(&self.0, simulation => simulation.contacts(time))
     }

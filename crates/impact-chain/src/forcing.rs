@@ -8,31 +8,31 @@ use crate::topology::Topology;
 
 /// Returns the forced response of each mass at t = 0: displacement and velocity.
 pub fn response_at_zero(scenario: &Scenario) -> Vec<[f64; 2]> {
-    let mut response = vec![[0.0; 2]; scenario.forcing.len()];
-    for component in Component::responses(scenario) {
-        for (j, [x, v]) in response.iter_mut().enumerate() {
-            *x += component.cos[j + 1];
-            *v += component.frequency * component.sin[j + 1];
+    let mut responses = vec![[0.0; 2]; scenario.forcing.len()];
+    for (frequency, forces) in scenario.components() {
+        for ([x, v], force) in responses.iter_mut().zip(forces) {
+            let [c, s] = response(scenario.natural_frequency, frequency, *force);
+            *x += c;
+            *v += frequency * s;
         }
     }
-    response
+    responses
 }
 
 /// Rotates the phases of the forcing by those at an instant, which becomes t = 0.
 pub fn rotate_phases(scenario: &mut Scenario, instant: Instant) {
-    let forces = Component::forces(scenario);
-    let further = scenario.overtones.iter_mut().map(|overtone| &mut overtone.amplitudes);
-    let amplitudes = std::iter::once(&mut scenario.forcing).chain(further);
-    for (component, amplitudes) in forces.iter().zip(amplitudes) {
-        let (sin, cos) = component.phase(instant);
-        for [alpha, beta] in amplitudes {
+    let first = (scenario.forcing_frequency, &mut scenario.forcing);
+    let further = scenario.overtones.iter_mut().map(|o| (o.frequency, &mut o.amplitudes));
+    for (frequency, forces) in std::iter::once(first).chain(further) {
+        let (sin, cos) = Rate::new(frequency).sin_cos(instant);
+        for [alpha, beta] in forces {
             (*alpha, *beta) = (*alpha * cos + *beta * sin, *beta * cos - *alpha * sin);
         }
     }
 }
 
 /// One component with an amplitude of cos Ωt and one of sin Ωt for each body, 0 for the walls.
-#[derive(Clone)]
+#[cfg(feature = "methods")]
 pub struct Component {
     pub frequency: f64,
     pub rate: Rate,
@@ -40,6 +40,7 @@ pub struct Component {
     pub sin: Vec<f64>,
 }
 
+#[cfg(feature = "methods")]
 impl Component {
     pub fn forces(scenario: &Scenario) -> Vec<Component> {
         Component::list(scenario, |_, force| force)
@@ -62,11 +63,6 @@ impl Component {
         };
         scenario.components().map(component).collect()
     }
-
-    #[inline]
-    pub fn phase(&self, instant: Instant) -> (f64, f64) {
-        self.rate.sin_cos(instant)
-    }
 }
 
 /// (sin, cos) of the phase of each component of the forcing.
@@ -77,7 +73,7 @@ pub type Phases = [(f64, f64); crate::scenario::COMPONENTS];
 pub fn phases(components: &[Component], instant: Instant) -> Phases {
     let mut phases = [(0.0, 1.0); crate::scenario::COMPONENTS];
     for (phase, component) in phases.iter_mut().zip(components) {
-        *phase = component.phase(instant);
+        *phase = component.rate.sin_cos(instant);
     }
     phases
 }

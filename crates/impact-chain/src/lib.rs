@@ -38,7 +38,6 @@ pub mod counts;
 mod elastic;
 mod engine;
 mod error;
-mod event;
 mod events;
 mod flight;
 mod force;
@@ -49,8 +48,6 @@ pub mod methods;
 #[cfg(feature = "ensembles")]
 pub mod mode_jump;
 #[cfg(feature = "ensembles")]
-mod resampling;
-#[cfg(feature = "ensembles")]
 pub mod rise;
 pub mod rounding;
 mod scenario;
@@ -60,7 +57,6 @@ mod search;
 mod simulation;
 mod state;
 mod topology;
-mod validation;
 #[cfg(any(feature = "ensembles", feature = "methods"))]
 mod vectors;
 
@@ -69,9 +65,8 @@ pub use abreast::{Abreast, Counting};
 pub use chain::{Boundary, Chain, Start};
 #[cfg(feature = "ensembles")]
 pub use counts::{Counts, Protocol, Watch};
-pub use engine::Engine;
-pub use error::{Error, ErrorKind, check_range};
-pub use event::{End, Event};
+pub use engine::{End, Engine, Event};
+pub use error::{Error, check_range};
 #[cfg(any(feature = "ensembles", feature = "methods"))]
 pub use impact::HitGaps;
 pub use impact::Impact;
