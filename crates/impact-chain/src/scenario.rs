@@ -106,6 +106,20 @@ impl Scenario {
         }
     }
 
+    /// Returns its chain, with the start left out: places and overtones have no part in it.
+    #[cfg(feature = "ensembles")]
+    pub fn chain(&self) -> Chain {
+        Chain {
+            masses: self.forcing.len(),
+            spacing: self.spacing,
+            natural_frequency: self.natural_frequency,
+            forcing_frequency: self.forcing_frequency,
+            restitution: self.restitution,
+            boundary: self.boundary,
+            ..Chain::default()
+        }
+    }
+
     /// Returns the place of equilibrium of body m: a mass, or a wall (0 or n + 1).
     ///
     /// # Panics

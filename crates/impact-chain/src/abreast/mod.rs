@@ -8,7 +8,6 @@
 //! impacts and contact, adjacent impacts whose order rounding cannot tell, dips near zero.
 
 mod columns;
-mod grid;
 mod lanes;
 mod plan;
 mod proof;
@@ -20,9 +19,8 @@ use crate::vectors::vector_level;
 use crate::{Boundary, Chain, Counts, Engine, Error, HitGaps, Protocol, Scenario, Watch};
 use columns::Columns;
 use fearless_simd::{Level, dispatch};
-use grid::Grid;
 use lanes::Lanes;
-use plan::Plan;
+use plan::{Grid, Plan};
 use proof::SLOW;
 use slot::Slot;
 
@@ -183,12 +181,7 @@ impl Abreast {
     fn set(&self, place: usize, scenario: &Scenario, columns: &mut Columns) -> Slot {
         let chain = &self.chain;
         let mut watch = Watch::new(chain, &self.windows);
-        let alike = scenario.spacing == chain.spacing
-            && scenario.natural_frequency == chain.natural_frequency
-            && scenario.forcing_frequency == chain.forcing_frequency
-            && scenario.restitution == chain.restitution
-            && scenario.boundary == chain.boundary
-            && scenario.forcing.len() == chain.masses
+        let alike = Chain { start: chain.start, ..scenario.chain() } == *chain
             && scenario.overtones.is_empty()
             && scenario.places.is_none();
         let ready = watch.begin(self.until).is_ok();

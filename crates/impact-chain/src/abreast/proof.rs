@@ -3,7 +3,7 @@
 //! Lengths are in units of d and times in units of 1/ω, so that a gap is
 //! f = 1 + u + v with u'' = −u and v'' = −ρ² v, ρ = Ω/ω. M₂ and M₃ are bounds of |f''| and |f'''|.
 
-use super::grid::Phases;
+use super::plan::Phases;
 use fearless_simd::{f64x4, mask64x4, prelude::*};
 
 /// A width, in units of d, by which f > 0 has to be proven: more than ten times what rounding can

@@ -1,7 +1,6 @@
 //! Locates the first roots of many gaps together.
 
-use super::grid::Phases;
-use super::plan::Plan;
+use super::plan::{Phases, Plan};
 use super::proof::{Part, SLOW};
 use super::slot::{Root, Slot};
 use fearless_simd::{f64x8, mask64x8, prelude::*};

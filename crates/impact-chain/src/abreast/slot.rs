@@ -1,7 +1,6 @@
 //! Keeps one of the chains that are simulated side by side.
 
-use super::grid::Phases;
-use super::plan::Plan;
+use super::plan::{Phases, Plan};
 use super::proof::{Local, Outcome, Part, SLOW, blur, cos_sin};
 use crate::Watch;
 

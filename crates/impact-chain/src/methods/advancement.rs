@@ -2,9 +2,8 @@
 
 use super::flights::{Flights, GapState};
 use super::method::Task;
-use super::rival::{Rival, Run};
+use super::rival::{Rival, Run, Stop, Tally};
 use super::steps::check_tolerance;
-use super::tally::{Stop, Tally};
 use crate::Error;
 use crate::search::clock::{Instant, LATEST};
 use crate::search::earliest::Earliest;

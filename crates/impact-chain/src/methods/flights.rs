@@ -1,13 +1,22 @@
 //! Computes flight in closed form, for methods that evaluate gaps at given times.
 
 use super::method::Task;
-use super::sign_change::is_open;
 use crate::Error;
 use crate::flight::INFLATION;
 use crate::forcing::{Component, Phases, phases};
 use crate::impact::share_change;
 use crate::search::clock::{Instant, Rate};
 use crate::topology::Topology;
+
+/// Width, in units of d, above which an opening gap that has just been hit may be below zero.
+const ROUNDING: f64 = 1e-12;
+
+/// Returns whether a gap of this width and rate is not below zero, or by rounding only, as one just
+/// hit.
+#[inline]
+pub fn is_open(width: f64, rate: f64, spacing: f64) -> bool {
+    width >= 0.0 || rate >= 0.0 && width >= -ROUNDING * spacing
+}
 
 /// Width and rate of a gap.
 #[derive(Clone, Copy, Debug)]
@@ -116,5 +125,23 @@ impl Flights {
             self.free[side][1] += kick * cos;
         }
         rebound
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_gap_is_open_down_to_rounding_if_it_opens() {
+        for (width, rate, spacing, expected) in [
+            (0.0, -1.0, 1.0, true),
+            (-0.9e-12, 0.0, 1.0, true),
+            (-0.9e-12, -1e-3, 1.0, false),
+            (-1.1e-12, 1.0, 1.0, false),
+            (-1.1e-12, 1.0, 2.0, true),
+        ] {
+            assert_eq!(is_open(width, rate, spacing), expected, "{width}, {rate}, {spacing}");
+        }
     }
 }

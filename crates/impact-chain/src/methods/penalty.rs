@@ -2,9 +2,8 @@
 
 use super::bodies::{Bodies, push};
 use super::method::Task;
-use super::rival::{Rival, Run, Stepper, run_steps};
+use super::rival::{Rival, Run, Stepper, Stop, Tally, run_steps};
 use super::steps::Step;
-use super::tally::{Stop, Tally};
 use crate::Error;
 use fearless_simd::Simd;
 use std::f64::consts::PI;

@@ -1,11 +1,9 @@
 //! Simulates by sampling gaps on a grid of times; Newton's method finds zeros between.
 
-use super::flights::Flights;
+use super::flights::{Flights, is_open};
 use super::method::Task;
-use super::rival::{Rival, Run, Stepper, run_steps};
-use super::sign_change::is_open;
+use super::rival::{Rival, Run, Stepper, Stop, Tally, run_steps};
 use super::steps::Step;
-use super::tally::{Stop, Tally};
 use crate::Error;
 use crate::forcing::Component;
 use crate::impact::share_change;

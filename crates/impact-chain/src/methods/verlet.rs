@@ -2,9 +2,8 @@
 
 use super::bodies::Bodies;
 use super::method::Task;
-use super::rival::{Rival, Run, Stepper, run_steps};
+use super::rival::{Rival, Run, Stepper, Stop, Tally, run_steps};
 use super::steps::Step;
-use super::tally::{Stop, Tally};
 use crate::Error;
 use crate::impact::jumps;
 use fearless_simd::Simd;
