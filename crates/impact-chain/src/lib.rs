@@ -57,6 +57,7 @@ mod search;
 mod simulation;
 mod state;
 mod topology;
+mod validation;
 #[cfg(any(feature = "ensembles", feature = "methods"))]
 mod vectors;
 
@@ -65,13 +66,13 @@ pub use abreast::{Abreast, Counting};
 pub use chain::{Boundary, Chain, Start};
 #[cfg(feature = "ensembles")]
 pub use counts::{Counts, Protocol, Watch};
-pub use engine::{End, Engine, Event};
+pub use engine::Engine;
 pub use error::{Error, check_range};
 #[cfg(any(feature = "ensembles", feature = "methods"))]
 pub use impact::HitGaps;
-pub use impact::Impact;
 #[cfg(feature = "methods")]
 pub use impact::Sink;
+pub use impact::{End, Event, Impact};
 #[cfg(feature = "random")]
 pub use impact_numerics::random::{NormalPairs, Seed};
 #[cfg(feature = "ensembles")]
