@@ -28,7 +28,6 @@ pub const TIME: f64 = 66.3;
 /// # Panics
 /// Panics if a list of the scenario is shorter than its number of masses asks for.
 /// [`Scenario::validate`] refuses these.
-#[must_use]
 pub fn gap_error(scenario: &Scenario) -> f64 {
     let amplitudes = (0..scenario.forcing.len()).map(|j| amplitude(scenario, j));
     let largest = amplitudes.fold(0.0, f64::max);

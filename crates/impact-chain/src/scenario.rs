@@ -124,7 +124,6 @@ impl Scenario {
     ///
     /// # Panics
     /// Panics if `places` has no place of this body.
-    #[must_use]
     pub fn place(&self, m: usize) -> f64 {
         self.places.as_ref().map_or(m as f64 * self.spacing, |places| places[m])
     }
@@ -171,7 +170,6 @@ impl Scenario {
     }
 
     /// Returns the number of gaps, N.
-    #[must_use]
     pub fn gaps(&self) -> usize {
         self.boundary.gaps(self.forcing.len())
     }
