@@ -162,8 +162,7 @@ impl<const M: usize> Simulation<M> {
         }
     }
 
-    /// Searches on until the next event up to `end` is known; returns its time, or `None` if there
-    /// is no event.
+    /// Searches on until the next event up to `end` is known; returns its time, or `None`.
     pub fn next_time(&mut self, end: Instant) -> Result<Option<f64>, Error> {
         loop {
             if let Some(first) = self.first_waiting(end) {
@@ -295,8 +294,7 @@ impl<const M: usize> Simulation<M> {
         Ok(None)
     }
 
-    /// Passes a dip of gap k that rounding hides; returns the next key of the gap, or `None` if
-    /// there is no dip.
+    /// Passes a dip of gap k that rounding hides; returns the next key of the gap, or `None`.
     #[inline(always)]
     fn pass_dip(&mut self, k: usize) -> Option<Instant> {
         let frame = &self.gaps[k].frame;

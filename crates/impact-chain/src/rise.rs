@@ -38,8 +38,7 @@ impl Mean {
         Some(Mean { value: mean(sample)?, error: standard_error(sample), interval: None })
     }
 
-    /// Returns the mean with its standard error and the normal interval, or `None` if it has no
-    /// error.
+    /// Returns the mean with its standard error and the normal interval, if it has one.
     pub fn estimate(&self) -> Option<Estimate> {
         Some(with_error(self.value, self.error?))
     }
@@ -266,8 +265,7 @@ impl Resampled {
         Resampled { whole, resamples, largest: sample.largest() }
     }
 
-    /// Estimates a quantity with its bootstrap error, or returns `None` if too many resamples have
-    /// no value.
+    /// Estimates a quantity with its bootstrap error, or `None` if too many have no value.
     fn estimate(&self, pick: impl Fn(&Places) -> Option<f64>) -> Option<Estimate> {
         let resamples: Vec<_> = self.resamples.iter().map(&pick).collect();
         bootstrap::estimate(pick(&self.whole), &resamples, LEVEL)
@@ -288,8 +286,7 @@ impl Resampled {
         }
     }
 
-    /// Returns the interval of the mode at a σ, from order statistics, or `None` if there is no
-    /// mode.
+    /// Returns the interval of the mode at a σ, from order statistics, if there is one.
     fn mode_interval(&self, row: usize) -> Option<[usize; 2]> {
         self.whole.mode[row]?;
         let mut histogram = vec![0; self.largest + 1];

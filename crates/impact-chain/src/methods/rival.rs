@@ -1,5 +1,4 @@
-//! Runs the engine as a `Method`, and its rivals, which share all but their steps: their work is
-//! counted and bounded.
+//! Runs the engine as a `Method`, and its rivals, which share all but their steps.
 
 use super::method::{Cost, Method, Sealed, Task};
 use super::steps::{MAX_STEPS, Step, Steps, check_end, too_many_steps};
@@ -169,8 +168,7 @@ impl<'a> Tally<'a> {
         }
     }
 
-    /// Counts an impact if it has a speed; without one it is an event only, of a gap that rests at
-    /// zero.
+    /// Counts an impact if it has a speed; without one it is an event only, of a gap at rest.
     pub fn event(&mut self, k: usize, time: f64, speed: f64) -> Result<(), Stop> {
         if speed > 0.0 { self.impact(k, time, speed) } else { self.spend(k, time) }
     }

@@ -1,5 +1,4 @@
-//! Cuts time into equal steps, tabulates phases at their ends, and checks the ranges of steps,
-//! tolerances and end times.
+//! Cuts time into equal steps, tabulates phases at their ends, and checks steps and tolerances.
 
 use super::method::Task;
 use crate::error::{Error, check_range};

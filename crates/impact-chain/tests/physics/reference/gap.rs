@@ -103,8 +103,7 @@ impl Gap {
         Ok(None)
     }
 
-    /// The root in (from, to], where Δ falls: steps of Newton's method, or halves where they lead
-    /// outside.
+    /// The root in (from, to], where Δ falls: by Newton's method, or halves if it leads out.
     fn root(&self, mut from: Dd, mut to: Dd) -> Dd {
         let mut root = to;
         for _ in 0..400 {
