@@ -53,7 +53,6 @@ use std::f64::consts::TAU;
 /// M_T(θ) at equally spaced angles θ from 0, in units of length per unit of amplitude of the force.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reach {
-    /// M_T at each angle.
     pub radii: Vec<f64>,
 }
 

@@ -41,9 +41,7 @@ impl<const M: usize> Phases<M> {
 /// The whole state is the free part (a, b), which only impacts of this mass change.
 #[derive(Clone, Copy, Debug)]
 pub struct Motion<const M: usize> {
-    /// a, free part along cos ωt.
     pub a: f64,
-    /// b, free part along sin ωt.
     pub b: f64,
     /// Forced responses: c = α/(ω² − Ω²) along cos Ωt, s = β/(ω² − Ω²) along sin Ωt.
     pub forced: [[f64; 2]; M],
@@ -143,7 +141,6 @@ impl<const M: usize> Motion<M> {
 pub const INFLATION: f64 = 1.0 + 1e-12;
 
 impl<const M: usize> Parts<M> {
-    /// Adds up the distance from the centre of motion.
     #[inline(always)]
     pub fn displacement(&self) -> f64 {
         self.forced.iter().fold(self.u, |sum, part| sum + part[0])

@@ -99,7 +99,6 @@ impl Heights {
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Crossing {
     sigma: f64,
-    /// Number of gaps at the peak of the bulk there.
     peak: f64,
     /// Height there less that of the likeliest number between, over the height.
     clearance: f64,

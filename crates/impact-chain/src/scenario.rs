@@ -150,7 +150,6 @@ impl Scenario {
         std::iter::once((self.forcing_frequency, self.forcing.as_slice())).chain(further)
     }
 
-    /// Returns the largest of all frequencies.
     #[cfg(feature = "methods")]
     pub(crate) fn fastest(&self) -> f64 {
         self.components().fold(self.natural_frequency, |fastest, (big_w, _)| fastest.max(big_w))

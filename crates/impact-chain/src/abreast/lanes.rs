@@ -93,7 +93,6 @@ impl<'a> Lanes<'a> {
         }
     }
 
-    /// Looks at all gaps that can close.
     #[inline(always)]
     fn look<S: Simd>(&mut self, simd: S, start: Phases, step: &Step) {
         self.scan(simd, step.end);

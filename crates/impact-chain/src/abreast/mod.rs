@@ -172,7 +172,6 @@ impl Abreast {
         slots.into_iter().enumerate().map(done).collect()
     }
 
-    /// Sets a realisation at t = 0.
     fn set(&self, place: usize, scenario: &Scenario, columns: &mut Columns) -> Slot {
         let chain = &self.chain;
         let mut watch = Watch::new(chain, &self.windows);

@@ -69,7 +69,6 @@ const KEPT: usize = 1 << 14;
 /// cos ωt, sin ωt, cos Ωt and sin Ωt.
 pub type Phases = [f64; 4];
 
-/// The phases in the middle and at the end of a step.
 #[derive(Clone, Copy, Debug)]
 pub struct Step {
     pub middle: Phases,
@@ -107,7 +106,6 @@ impl Grid {
         self.phases(0)
     }
 
-    /// Lists all steps in pieces.
     pub fn pieces(&self) -> impl Iterator<Item = Cow<'_, [Step]>> {
         (0..self.steps.div_ceil(KEPT)).map(|piece| match &self.table[..] {
             [] => Cow::Owned(self.compute_steps(piece * KEPT, KEPT.min(self.steps - piece * KEPT))),

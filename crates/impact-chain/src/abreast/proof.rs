@@ -74,7 +74,6 @@ pub struct Part {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Outcome {
-    /// No root.
     Open,
     /// The first root, and the speed −f' there.
     Root { s: f64, speed: f64 },

@@ -76,7 +76,6 @@ impl Bodies {
         self.v[right] += jumps[1];
     }
 
-    /// Lists the rates of the forcing, for the phases of steps.
     pub fn rates(&self) -> Vec<Rate> {
         self.forcing.iter().map(|component| component.rate).collect()
     }

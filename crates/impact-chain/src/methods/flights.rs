@@ -17,7 +17,6 @@ pub fn is_open(width: f64, rate: f64, spacing: f64) -> bool {
     width >= 0.0 || rate >= 0.0 && width >= -ROUNDING * spacing
 }
 
-/// Width and rate of a gap.
 #[derive(Clone, Copy, Debug)]
 pub struct GapState {
     pub width: f64,
@@ -84,7 +83,6 @@ impl Flights {
         [v, rate]
     }
 
-    /// Evaluates gap k at a time whose phases are given.
     pub fn gap_at(&self, k: usize, phases: &FlightPhases) -> GapState {
         let sides = self.topology.sides(k);
         let [free_left, free_right] = sides.map(|m| self.free[m]);

@@ -90,7 +90,6 @@ pub fn run_steps(
     ))
 }
 
-/// Makes all steps of a run.
 #[inline(always)]
 fn make_steps<S: Simd>(
     simd: S,
@@ -107,7 +106,6 @@ fn make_steps<S: Simd>(
     )
 }
 
-/// Why a run ends early.
 pub enum Stop {
     Failed(Error),
     /// The receiver of the impacts asked for it.

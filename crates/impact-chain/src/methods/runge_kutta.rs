@@ -220,7 +220,6 @@ impl Stages {
         stages
     }
 
-    /// Restarts at `y`, which an impact has changed.
     fn restart(&mut self, row: &Bodies, instant: Instant) {
         differentiate(row, instant, &self.y, &mut self.k[0]);
     }
@@ -259,7 +258,6 @@ impl Stages {
         self.y[i] + theta * (difference + rest * (bend + theta * (third + rest * fourth)))
     }
 
-    /// Accepts the step: the next one starts from its end.
     fn accept(&mut self) {
         std::mem::swap(&mut self.y, &mut self.next);
         self.k.swap(0, 6);

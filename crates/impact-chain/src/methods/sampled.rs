@@ -93,7 +93,6 @@ struct Gaps {
     parts: Vec<Part>,
     /// M₂ h²/8 of each gap: how far it may be below the chord of a step.
     sag: Vec<f64>,
-    /// Length of the step.
     h: f64,
     /// Terms of the polynomial that a step of this length needs.
     terms: usize,
@@ -101,7 +100,6 @@ struct Gaps {
     low: Vec<u64>,
     /// (sin, cos) at the beginning of the step, or at the last impact.
     phases_now: Vec<(f64, f64)>,
-    /// (sin, cos) at the middle of the step.
     phases_at_middle: Vec<(f64, f64)>,
     /// Half the advance of each phase in a step, as (sin, cos).
     half_step_angles: Vec<(f64, f64)>,
@@ -158,7 +156,6 @@ impl Gaps {
         (forced + bound_of_curvature(&self.parts[0])) * self.h * self.h / 8.0
     }
 
-    /// Sets the length of the next steps.
     fn set_step(&mut self, h: f64) {
         self.h = h;
         for (half, part) in self.half_step_angles.iter_mut().zip(&self.parts) {
@@ -201,7 +198,6 @@ impl Gaps {
         }
     }
 
-    /// Evaluates gap k and its rate at given phases.
     #[inline(always)]
     fn width_and_rate(&self, k: usize, phases: &[(f64, f64)]) -> [f64; 2] {
         let parts = self.parts.iter().zip(phases);
@@ -273,7 +269,6 @@ impl Gaps {
         self.roots.push(Root { time: x + half, gap: k, closing_speed: (-rate).max(0.0) });
     }
 
-    /// Carries out an impact.
     fn hit(&mut self, root: Root, step: &Step, tally: &mut Tally) {
         let Root { time, gap: k, closing_speed } = root;
         let rebound = (self.restitution * closing_speed).max(self.least_rebound);

@@ -17,7 +17,6 @@ const KEPT: usize = 1 << 14;
 #[derive(Clone, Copy)]
 pub struct Step<'a> {
     begin: Instant,
-    /// The end of the last step.
     end: Option<Instant>,
     whole: f64,
     number: u64,
@@ -64,7 +63,6 @@ impl Steps {
         Ok(Steps { rates, begin, end, h, count: count as u64 })
     }
 
-    /// Hands on each step in turn.
     #[inline(always)]
     pub fn each<E>(&self, mut visit: impl FnMut(&Step) -> Result<(), E>) -> Result<(), E> {
         let Steps { ref rates, begin, end, h, count } = *self;

@@ -10,7 +10,6 @@ use crate::vectors::vector_level;
 use crate::{Error, HitGaps, Impact, Scenario, Sink, State};
 use fearless_simd::{dispatch, f32x16, prelude::*};
 
-/// Number of chains in one register.
 const LANES: usize = 16;
 
 /// Longest row of impacts, each caused by the one before, followed within one step.
@@ -157,9 +156,7 @@ struct Gap {
 /// Up to 16 chains side by side.
 #[derive(Default)]
 struct Lanes {
-    /// Length of a step, in units of time.
     h: f64,
-    /// Distance d between equilibria.
     spacing: f64,
     /// ωh, by which the free motion turns in a step.
     turn: f32,
@@ -175,7 +172,6 @@ struct Lanes {
     adjacent: Vec<[(usize, f32); 2]>,
     /// The gaps, and one more that never has an impact.
     gaps: Vec<Gap>,
-    /// The number of the chain in each lane.
     chains: Vec<usize>,
     /// A bit for each lane whose chain has not ended.
     live: u16,
@@ -189,9 +185,7 @@ struct Lanes {
     may_have_closed: Vec<(usize, u16)>,
     /// Gaps to look at in one lane, and how many impacts led to each.
     stack: Vec<(usize, u32)>,
-    /// Lanes and impacts of this step.
     step_impacts: Vec<(usize, Impact)>,
-    /// Impacts and steps so far, in all lanes.
     cost: Cost,
 }
 
@@ -247,7 +241,6 @@ impl Lanes {
         }
     }
 
-    /// Runs the chains to the last whole step.
     #[inline(always)]
     fn run<S: Simd>(&mut self, simd: S, steps: &Steps, sink: ChainSink) {
         let (mut i, mut time, mut from) = (0, 0.0, (0.0, 1.0));
@@ -364,7 +357,6 @@ impl Lanes {
         }
     }
 
-    /// Hands on the impacts of a step.
     fn report(&mut self, sink: ChainSink) {
         self.step_impacts.sort_by(|a, b| a.1.time.total_cmp(&b.1.time));
         for (lane, impact) in std::mem::take(&mut self.step_impacts) {
@@ -377,7 +369,6 @@ impl Lanes {
     }
 }
 
-/// Evaluates the sine of a small angle.
 #[inline(always)]
 fn sine(x: f32) -> f32 {
     let y = x * x;

@@ -36,7 +36,6 @@ fn first(engine: &mut Engine, until: f64) -> Option<Impact> {
     engine.next_impact(until).unwrap()
 }
 
-/// An engine that has run a scenario, and its impacts.
 fn ran(scenario: &Scenario, until: f64) -> (Engine, Vec<Impact>) {
     let mut engine = Engine::new(scenario).unwrap();
     let impacts = run(&mut engine, until);

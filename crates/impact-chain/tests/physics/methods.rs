@@ -16,7 +16,6 @@ fn chain(masses: usize, boundary: Boundary, sigma: f64, index: u64) -> Scenario 
     drawn(&chain, sigma * spacing * w * w, "methods", index)
 }
 
-/// The impacts of a method up to its end or error.
 type Trace = (Vec<Impact>, Result<Cost, Error>);
 
 fn trace(method: &dyn Method, scenario: &Scenario, until: f64) -> Trace {
