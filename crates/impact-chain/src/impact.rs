@@ -1,7 +1,5 @@
 //! Defines the events of a run, the receivers of impacts, and the impact law.
 
-#[cfg(feature = "methods")]
-use crate::Error;
 use crate::search::outcome::Graze;
 
 /// The impact of two neighbours, or of a mass and a wall.
@@ -63,20 +61,6 @@ pub enum End {
 /// Receives the impacts of a run in order; returns false to stop it.
 #[cfg(feature = "methods")]
 pub type Sink<'a> = &'a mut dyn FnMut(Impact) -> bool;
-
-/// Collects the first `most` impacts of a run, or all if there are fewer.
-#[cfg(feature = "methods")]
-pub fn collect_impacts<T>(
-    most: usize,
-    run: impl FnOnce(Sink) -> Result<T, Error>,
-) -> Result<Vec<Impact>, Error> {
-    let mut impacts = Vec::new();
-    run(&mut |impact| {
-        impacts.push(impact);
-        impacts.len() < most
-    })?;
-    Ok(impacts)
-}
 
 // listing: jumps
 /// Returns the jumps of velocity (left, right) of two neighbours whose gap closes at `speed` ≥ 0.

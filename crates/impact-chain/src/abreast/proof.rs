@@ -76,7 +76,10 @@ pub struct Part {
 pub enum Outcome {
     Open,
     /// The first root, and the speed −f' there.
-    Root { s: f64, speed: f64 },
+    Root {
+        s: f64,
+        speed: f64,
+    },
     /// Rounding does not tell, or the speed is below [`SLOW`].
     Unsure,
 }

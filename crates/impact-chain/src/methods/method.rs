@@ -1,7 +1,6 @@
 //! Defines the trait of all ways to simulate a chain.
 
-use crate::impact::{Impact, Sink, collect_impacts};
-use crate::{Error, Graze, Scenario, State};
+use crate::{Error, Graze, Impact, Scenario, Sink, State};
 
 /// What no other crate can implement.
 pub trait Sealed {}
@@ -62,7 +61,12 @@ pub trait Method: Sealed + Sync {
     /// # Errors
     /// Those of [`run`](Method::run).
     fn first(&self, task: Task) -> Result<Option<Impact>, Error> {
-        Ok(collect_impacts(1, |sink| self.run(task, sink))?.pop())
+        let mut first = None;
+        self.run(task, &mut |impact| {
+            first = Some(impact);
+            false
+        })?;
+        Ok(first)
     }
 
     /// Returns all impacts, in order.
@@ -70,6 +74,11 @@ pub trait Method: Sealed + Sync {
     /// # Errors
     /// Those of [`run`](Method::run).
     fn impacts(&self, task: Task) -> Result<Vec<Impact>, Error> {
-        collect_impacts(usize::MAX, |sink| self.run(task, sink))
+        let mut impacts = Vec::new();
+        self.run(task, &mut |impact| {
+            impacts.push(impact);
+            true
+        })?;
+        Ok(impacts)
     }
 }

@@ -101,7 +101,7 @@ impl Stepper for Impulses {
         let before = std::mem::take(&mut self.touching);
         self.touching = pressed().map(|gap| gap.k).collect();
         for gap in pressed().filter(|gap| !before.contains(&gap.k)) {
-            tally.impact(gap.k, step.from().after(half).time(), (-gap.rate).max(0.0))?;
+            tally.impact(gap.k, step.from.after(half).time(), (-gap.rate).max(0.0))?;
         }
         Ok(())
     }

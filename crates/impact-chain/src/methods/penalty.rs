@@ -99,7 +99,7 @@ impl Stepper for Springs {
             let speed = -row.rate(k);
             let touches = before.iter().any(|(gap, _)| *gap == k);
             if !touches && speed > 0.0 {
-                tally.impact(k, step.to().time(), speed)?;
+                tally.impact(k, step.to.time(), speed)?;
             }
             if touches || speed > 0.0 {
                 self.contacts.push((k, 0.0));

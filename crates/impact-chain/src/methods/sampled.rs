@@ -272,7 +272,7 @@ impl Gaps {
     fn hit(&mut self, root: Root, step: &Step, tally: &mut Tally) {
         let Root { time, gap: k, closing_speed } = root;
         let rebound = (self.restitution * closing_speed).max(self.least_rebound);
-        let instant = step.from().after(time);
+        let instant = step.from.after(time);
         for (now, part) in self.phases_now.iter_mut().zip(&self.parts) {
             *now = part.rate.sin_cos(instant);
         }
@@ -357,7 +357,7 @@ impl Stepper for Gaps {
         let earlier = |a: Root, b: Root| if b.time < a.time { b } else { a };
         while let Some(root) = self.roots.iter().copied().reduce(earlier) {
             self.hit(root, step, tally);
-            tally.event(root.gap, step.from().after(root.time).time(), root.closing_speed)?;
+            tally.event(root.gap, step.from.after(root.time).time(), root.closing_speed)?;
         }
         self.phases_now.copy_from_slice(step.phases);
         Ok(())

@@ -53,7 +53,7 @@ impl Stepper for Flip {
             if speed > 0.0 && row.width(k) < 0.0 {
                 let jumps = jumps(speed, row.restitution, row.topology.inverse_masses(k));
                 sides.into_iter().zip(jumps).for_each(|(m, jump)| row.v[m] += jump);
-                tally.impact(k, step.to().time(), speed)?;
+                tally.impact(k, step.to.time(), speed)?;
             }
         }
         Ok(())

@@ -256,7 +256,7 @@ impl Lanes {
                 let number = self.leap(simd, from);
                 let to = (step.phases[0].0 as f32, step.phases[0].1 as f32);
                 let mean = (0.5 * (from.0 + to.0), 0.5 * (from.1 + to.1));
-                (i, time, from) = (i + 1, step.to().time(), to);
+                (i, time, from) = (i + 1, step.to.time(), to);
                 for index in 0..number {
                     let (k, mut lanes) = self.may_have_closed[index];
                     while lanes != 0 {
