@@ -23,7 +23,6 @@ use crate::search::local_frame::ROUNDING;
 use crate::search::outcome::Next;
 use crate::search::window::next_window;
 use std::collections::BTreeMap;
-use std::collections::btree_map::Entry;
 use std::iter::successors;
 use std::mem::take;
 
@@ -70,21 +69,20 @@ impl<const M: usize> Simulation<M> {
             self.joined = (self.now, Vec::new());
         }
         let jumps = self.kick_neighbours(k, speed, phases);
+        let has_joined = |near: usize| inelastic && self.joined.1.contains(&near);
         let mut changed = BTreeMap::new();
         for near in freed {
             let rate = self.jump_of_gap(near, k, jumps);
-            let joined = inelastic && self.joined.1.contains(&near);
-            let is_settled = joined || self.is_settled(0.0, rate);
+            let is_settled = has_joined(near) || self.is_settled(0.0, rate);
             changed.insert(near, Changed { width: 0.0, rate, is_settled });
         }
         changed.insert(k, Changed { width: 0.0, rate, is_settled: self.is_settled(0.0, rate) });
         for near in self.topology.near(k) {
-            if let Entry::Vacant(place) = changed.entry(near) {
+            if !changed.contains_key(&near) {
                 let jump = self.jump_of_gap(near, k, jumps);
                 let mut gap = self.changed(near, phases, jump);
-                let joined = inelastic && self.joined.1.contains(&near);
-                gap.is_settled |= joined && self.is_settled(gap.width, gap.rate - jump);
-                place.insert(gap);
+                gap.is_settled |= has_joined(near) && self.is_settled(gap.width, gap.rate - jump);
+                changed.insert(near, gap);
             }
         }
         if inelastic {
@@ -182,16 +180,14 @@ impl<const M: usize> Simulation<M> {
         let (mut freed, stuck) = (take(&mut self.freed), take(&mut self.stuck));
         freed.retain(|&k| !self.gaps[k].in_contact);
         let (instant, time) = (self.now, self.time(self.now));
-        let [freed, stuck] = [freed, stuck].map(|mut gaps| {
+        for (mut gaps, is_stuck) in [(freed, false), (stuck, true)] {
+            if gaps.is_empty() {
+                continue;
+            }
             gaps.sort_unstable();
-            gaps.iter().map(|&k| self.topology.label(k)).collect::<Vec<usize>>()
-        });
-        if !freed.is_empty() {
-            let event = Event::Release { time, gaps: freed };
-            self.waiting.push(Waiting { instant, dip: None, event });
-        }
-        if !stuck.is_empty() {
-            let event = Event::Stick { time, gaps: stuck };
+            let gaps = gaps.into_iter().map(|k| self.topology.label(k)).collect();
+            let event =
+                if is_stuck { Event::Stick { time, gaps } } else { Event::Release { time, gaps } };
             self.waiting.push(Waiting { instant, dip: None, event });
         }
     }

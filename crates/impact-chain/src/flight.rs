@@ -9,6 +9,10 @@ pub fn response(w: f64, big_w: f64, amplitudes: [f64; 2]) -> [f64; 2] {
     amplitudes.map(|amplitude| amplitude / factor)
 }
 
+pub fn length([x, y]: [f64; 2]) -> f64 {
+    (x * x + y * y).sqrt()
+}
+
 /// Sine and cosine of the phases ωt and Ωt of each component of the forcing at one instant.
 #[derive(Clone, Copy, Debug)]
 pub struct Phases<const M: usize> {

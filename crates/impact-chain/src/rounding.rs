@@ -10,7 +10,7 @@
 //! over |ω² − Ω²|, however slowly the motion grows.
 
 use super::Scenario;
-use super::flight::response;
+use super::flight::{length, response};
 
 /// The largest E = C ε S that a scenario may have, as a part of d.
 pub const LARGEST: f64 = 1e-6;
@@ -50,10 +50,6 @@ fn amplitude(scenario: &Scenario, j: usize) -> f64 {
         sum += length(response(w, big_w, amplitudes[j]));
     }
     sum + length(scenario.free_part(j))
-}
-
-fn length([a, b]: [f64; 2]) -> f64 {
-    (a * a + b * b).sqrt()
 }
 
 #[cfg(test)]

@@ -106,7 +106,7 @@ impl Scenario {
     }
 
     /// Returns its chain, with the start left out: places and overtones have no part in it.
-    #[cfg(feature = "ensembles")]
+    #[cfg(any(feature = "ensembles", feature = "methods"))]
     pub fn chain(&self) -> Chain {
         Chain {
             masses: self.forcing.len(),

@@ -78,15 +78,12 @@ impl Gaps {
                     let neighbour = self.flights.gap_at(j, &phases);
                     self.advance_gap(j, now, neighbour);
                 }
-                self.advance_gap(k, now, gap);
                 tally.impact(k, now.time(), speed)?;
-            } else {
+            } else if gap.width <= self.reached {
                 // So near to zero the number of evaluations has no bound.
-                if gap.width <= self.reached {
-                    tally.spend(k, now.time())?;
-                }
-                self.advance_gap(k, now, gap);
+                tally.spend(k, now.time())?;
             }
+            self.advance_gap(k, now, gap);
         }
     }
 

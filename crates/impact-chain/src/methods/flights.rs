@@ -2,7 +2,7 @@
 
 use super::method::Task;
 use crate::Error;
-use crate::flight::INFLATION;
+use crate::flight::{INFLATION, length};
 use crate::forcing::{Component, Phases, phases};
 use crate::impact::share_change;
 use crate::search::clock::{Instant, Rate};
@@ -12,7 +12,6 @@ use crate::topology::Topology;
 const ROUNDING: f64 = 1e-12;
 
 /// Returns whether a gap of this width and rate is not below zero, or by rounding only.
-#[inline]
 pub fn is_open(width: f64, rate: f64, spacing: f64) -> bool {
     width >= 0.0 || rate >= 0.0 && width >= -ROUNDING * spacing
 }
@@ -98,14 +97,14 @@ impl Flights {
     /// Bounds how far gap k is from d, Σ R over its sinusoids, and its second derivative, Σ R Ω².
     pub fn bounds(&self, k: usize) -> [f64; 2] {
         let [left, right] = self.topology.sides(k);
-        let length = |x: f64, y: f64| (x * x + y * y).sqrt();
         let [free_left, free_right] = [self.free[left], self.free[right]];
-        let free = length(free_right[0] - free_left[0], free_right[1] - free_left[1]);
+        let free = length([free_right[0] - free_left[0], free_right[1] - free_left[1]]);
         let (mut reach, mut curvature) = (free, self.omega * self.omega * free);
         for part in &self.forced {
             let [c, s] = [&part.cos, &part.sin].map(|of_bodies| of_bodies[right] - of_bodies[left]);
-            reach += length(c, s);
-            curvature += part.frequency * part.frequency * length(c, s);
+            let forced = length([c, s]);
+            reach += forced;
+            curvature += part.frequency * part.frequency * forced;
         }
         [INFLATION * reach, INFLATION * curvature]
     }

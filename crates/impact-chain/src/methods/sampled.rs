@@ -5,6 +5,7 @@ use super::method::Task;
 use super::rival::{Rival, Run, Stepper, Stop, Tally, run_steps};
 use super::steps::Step;
 use crate::Error;
+use crate::flight::length;
 use crate::forcing::Component;
 use crate::impact::share_change;
 use crate::search::clock::{Instant, Rate};
@@ -151,7 +152,8 @@ impl Gaps {
 
     /// Returns M₂ h²/8 of gap k, with M₂ the bound of its curvature.
     fn sag(&self, k: usize) -> f64 {
-        let bound_of_curvature = |part: &Part| part.frequency * part.frequency * part.reach(k);
+        let bound_of_curvature =
+            |part: &Part| part.frequency * part.frequency * length([part.cos[k], part.sin[k]]);
         let forced = self.parts[1..].iter().map(bound_of_curvature).sum::<f64>();
         (forced + bound_of_curvature(&self.parts[0])) * self.h * self.h / 8.0
     }
@@ -295,12 +297,6 @@ impl Gaps {
                 if j == k { [0.0, rebound] } else { self.width_and_rate(j, &self.phases_now) };
             self.locate(j, time, start, step, tally);
         }
-    }
-}
-
-impl Part {
-    fn reach(&self, k: usize) -> f64 {
-        (self.cos[k] * self.cos[k] + self.sin[k] * self.sin[k]).sqrt()
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::method::{Cost, Method, Sealed, Task};
 use super::steps::{Steps, check_end};
+use crate::flight::length;
 use crate::forcing::gap_amplitudes;
 use crate::impact::share_change;
 use crate::search::clock::Rate;
@@ -87,17 +88,12 @@ impl VerletAbreast {
         for (number, scenario) in chains.iter().enumerate() {
             scenario.validate()?;
             scenario.check_uniform()?;
-            let Scenario { forcing, initial, .. } = first_scenario.clone();
-            let alike = forcing.len() == scenario.forcing.len()
-                && *first_scenario == Scenario { forcing, initial, ..scenario.clone() };
-            if !alike || !first_scenario.overtones.is_empty() {
+            if scenario.chain() != first_scenario.chain() || !scenario.overtones.is_empty() {
                 let problem = "verlet-abreast supports equal chains with one frequency";
                 return Err(Error::input("forcing_frequencies", problem, "use another method"));
             }
             let gaps = gap_amplitudes(scenario);
-            let length = |cos: f64, sin: f64| (cos * cos + sin * sin).sqrt();
-            let reach =
-                |[a, b, forced_a, forced_b]: [f64; 4]| length(a, b) + length(forced_a, forced_b);
+            let reach = |[a, b, c, d]: [f64; 4]| length([a, b]) + length([c, d]);
             if gaps.iter().any(|gap| reach(*gap) >= 1.0) {
                 may_close.push((number, gaps));
             }
