@@ -334,8 +334,9 @@ impl<const M: usize> Simulation<M> {
                 u += common[0] - alone[0];
                 quadrature += ratio * (common[1] - alone[1]);
             }
-            self.motions[m] = alone;
-            self.motions[m].set_free(u, quadrature, p);
+            let a = u * p.cos - quadrature * p.sin;
+            let b = u * p.sin + quadrature * p.cos;
+            self.motions[m] = Motion { a, b, ..alone };
         }
     }
 

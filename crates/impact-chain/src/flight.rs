@@ -89,13 +89,6 @@ impl<const M: usize> Motion<M> {
         }
     }
 
-    /// Sets the free part to one that has this value and quadrature now.
-    #[inline(always)]
-    pub fn set_free(&mut self, u: f64, u_quadrature: f64, p: &Phases<M>) {
-        self.a = u * p.cos - u_quadrature * p.sin;
-        self.b = u * p.sin + u_quadrature * p.cos;
-    }
-
     // listing: kick
     /// Lets the velocity jump by ω `kick` at an instant, which only rotates into the free part.
     #[inline(always)]

@@ -47,24 +47,19 @@ impl Rival for Penalty {
         let steps = (DURATION / (self.step * omega)).sqrt().max(STEPS);
         let contact = PI / (steps * self.step);
         let rates = row.rates();
+        // ζ, with which a contact ends with r times the first speed.
+        let log = pxfm::f_log(row.restitution);
+        let damping_ratio =
+            if row.restitution == 0.0 { 1.0 } else { -log / (PI * PI + log * log).sqrt() };
         let springs = Springs {
             stiffness: contact * contact,
-            damping: 2.0 * damping_ratio(row.restitution) * contact,
+            damping: 2.0 * damping_ratio * contact,
             shut: Vec::new(),
             contacts: Vec::new(),
             row,
         };
         run_steps(task, self.step, rates, springs)
     }
-}
-
-/// Returns ζ of a spring and damper whose contact ends with r times the first speed.
-fn damping_ratio(r: f64) -> f64 {
-    if r == 0.0 {
-        return 1.0;
-    }
-    let log = pxfm::f_log(r);
-    -log / (PI * PI + log * log).sqrt()
 }
 
 struct Springs {

@@ -8,6 +8,7 @@ use super::steps::check_tolerance;
 use crate::Error;
 use crate::search::clock::Instant;
 use impact_numerics::roots::bracket;
+use std::mem::swap;
 
 /// The pair of Dormand and Prince with a tolerance; a gap that is negative at the end of a step is
 /// an event, bisected on the dense output; the earliest ends the step.
@@ -81,7 +82,9 @@ impl Steps {
                     // A step that was cut short by the end of the run must not shorten the next.
                     wanted = if h < wanted { wanted.max(grown) } else { grown };
                     self.now = if h == left { end } else { self.now.after(h) };
-                    self.stages.accept();
+                    // The next step starts from the end of this one.
+                    swap(&mut self.stages.y, &mut self.stages.next);
+                    self.stages.k.swap(0, 6);
                 }
             }
         }
@@ -258,17 +261,12 @@ impl Stages {
         self.y[i] + theta * (difference + rest * (bend + theta * (third + rest * fourth)))
     }
 
-    fn accept(&mut self) {
-        std::mem::swap(&mut self.y, &mut self.next);
-        self.k.swap(0, 6);
-    }
-
     /// Cuts the step at its fraction θ; [`Stages::restart`] must follow.
     fn cut(&mut self, theta: f64) {
         for i in 0..self.y.len() {
             self.next[i] = self.dense(i, theta);
         }
-        std::mem::swap(&mut self.y, &mut self.next);
+        swap(&mut self.y, &mut self.next);
     }
 }
 

@@ -224,8 +224,8 @@ impl Gaps {
         }
         let half = 0.5 * self.h;
         let (mut low, mut high) = (from - half, half);
-        let gap = Polynomial::about_middle(self, k);
-        let value = |x: f64| gap.value(x, self.terms);
+        let polynomial = polynomial(self, k);
+        let value = |x: f64| evaluate(&polynomial, x, self.terms);
         if ends_open {
             // A convex gap stays open if the tangents at both ends meet above zero. Their height
             // there is this over start[1] − end[1] < 0.
@@ -243,7 +243,7 @@ impl Gaps {
                 return;
             }
         }
-        let [p0, p1, p2, p3, p4, p5, ..] = gap.terms;
+        let [p0, p1, p2, p3, p4, p5, ..] = polynomial;
         let inside = (p1 * p1 - 4.0 * p0 * p2).max(0.0);
         let mut x = -2.0 * p0 / (p1 - inside.sqrt());
         let (mut moved, mut rate) = (f64::INFINITY, end[1]);
@@ -252,7 +252,7 @@ impl Gaps {
             if !(x > low && x < high) {
                 x = 0.5 * (low + high);
             }
-            let [f, slope] = if turn == 0 { gap.value(x, ROUGH) } else { value(x) };
+            let [f, slope] = if turn == 0 { evaluate(&polynomial, x, ROUGH) } else { value(x) };
             tally.cost.evaluations += 1;
             if turn > 0 {
                 *if f > 0.0 { &mut low } else { &mut high } = x;
@@ -300,41 +300,35 @@ impl Gaps {
     }
 }
 
-/// A gap about the middle of a step.
-struct Polynomial {
-    terms: [f64; TERMS],
+/// Returns the Taylor polynomial of gap k about the middle of a step.
+#[inline(always)]
+fn polynomial(gaps: &Gaps, k: usize) -> [f64; TERMS] {
+    let mut terms = [0.0; TERMS];
+    terms[0] = gaps.spacing;
+    for (part, (sin, cos)) in gaps.parts.iter().zip(&gaps.phases_at_middle) {
+        let [a, b] = [part.cos[k], part.sin[k]];
+        let (u, q) = (a * cos + b * sin, b * cos - a * sin);
+        let derivatives = [u, q, -u, -q];
+        for (i, (term, factor)) in terms.iter_mut().zip(&part.factors).enumerate() {
+            *term += derivatives[i % 4] * factor;
+        }
+    }
+    terms
 }
 
-impl Polynomial {
-    #[inline(always)]
-    fn about_middle(gaps: &Gaps, k: usize) -> Polynomial {
-        let mut terms = [0.0; TERMS];
-        terms[0] = gaps.spacing;
-        for (part, (sin, cos)) in gaps.parts.iter().zip(&gaps.phases_at_middle) {
-            let [a, b] = [part.cos[k], part.sin[k]];
-            let (u, q) = (a * cos + b * sin, b * cos - a * sin);
-            let derivatives = [u, q, -u, -q];
-            for (i, (term, factor)) in terms.iter_mut().zip(&part.factors).enumerate() {
-                *term += derivatives[i % 4] * factor;
-            }
-        }
-        Polynomial { terms }
+/// Evaluates a gap and its rate by the first `terms` terms, even powers apart from odd.
+#[inline(always)]
+fn evaluate(polynomial: &[f64; TERMS], x: f64, terms: usize) -> [f64; 2] {
+    let square = x * x;
+    let [mut even, mut odd, mut even_rate, mut odd_rate] = [0.0; 4];
+    for pair in (0..terms.div_ceil(2)).rev() {
+        even_rate = even_rate * square + even;
+        odd_rate = odd_rate * square + odd;
+        even = even * square + polynomial[2 * pair];
+        odd = odd * square + polynomial[2 * pair + 1];
     }
-
-    /// Evaluates the gap and its rate by the first `terms` terms, even powers apart from odd.
-    #[inline(always)]
-    fn value(&self, x: f64, terms: usize) -> [f64; 2] {
-        let square = x * x;
-        let [mut even, mut odd, mut even_rate, mut odd_rate] = [0.0; 4];
-        for pair in (0..terms.div_ceil(2)).rev() {
-            even_rate = even_rate * square + even;
-            odd_rate = odd_rate * square + odd;
-            even = even * square + self.terms[2 * pair];
-            odd = odd * square + self.terms[2 * pair + 1];
-        }
-        // With E and O in x²: f = E + x O, f' = 2 x E' + O + 2 x² O'.
-        [even + x * odd, odd + 2.0 * (x * even_rate + square * odd_rate)]
-    }
+    // With E and O in x²: f = E + x O, f' = 2 x E' + O + 2 x² O'.
+    [even + x * odd, odd + 2.0 * (x * even_rate + square * odd_rate)]
 }
 
 impl Stepper for Gaps {
