@@ -15,7 +15,6 @@ use std::ops::RangeInclusive;
 const RESAMPLES: u64 = 400;
 
 /// Which numbers compete: one at an end, the bulk at least N/10 from it, and those between.
-#[derive(Clone, Debug)]
 struct Parts {
     end: usize,
     between: RangeInclusive<usize>,

@@ -46,7 +46,6 @@ pub const LARGEST: f64 = 64.0;
 const TURNS: usize = 200;
 
 /// A gap about the middle of a step: f = 1 + u cos s + q sin s + v cos ρs + z/ρ sin ρs.
-#[derive(Clone, Copy, Debug)]
 pub struct Local {
     u: f64,
     q: f64,

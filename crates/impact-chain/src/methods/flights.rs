@@ -16,7 +16,6 @@ pub fn is_open(width: f64, rate: f64, spacing: f64) -> bool {
     width >= 0.0 || rate >= 0.0 && width >= -ROUNDING * spacing
 }
 
-#[derive(Clone, Copy, Debug)]
 pub struct GapState {
     pub width: f64,
     pub rate: f64,

@@ -5,7 +5,6 @@ use super::pair::Pair;
 use super::trig::rough_angles;
 
 /// One sinusoid R cos(νs + θ), as value u and quadrature u̇/ν at s = 0.
-#[derive(Clone, Copy, Debug)]
 struct Part {
     frequency: f64,
     /// θ − π.

@@ -3,7 +3,6 @@
 use super::{Dd, EPS, sin_cos};
 
 /// Δ(t) = d + a cos ωt + b sin ωt + Σ (c cos Ωt + e sin Ωt).
-#[derive(Clone, Debug)]
 pub struct Gap {
     /// d.
     pub spacing: Dd,
