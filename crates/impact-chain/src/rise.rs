@@ -92,8 +92,6 @@ pub struct CurveData<'a> {
 
 impl Curve {
     /// Computes the curve of a window from the counts at each σ.
-    ///
-    /// # Panics
     /// Panics if the counts have no window of this number, or a count is above `gaps`.
     pub fn new(data: &CurveData) -> Curve {
         let &CurveData { window_index, protocol, sigmas, counts, compared, gaps, seed } = data;
@@ -133,8 +131,6 @@ pub struct Column {
 
 impl RisePoint {
     /// Computes the row of a σ, without intervals.
-    ///
-    /// # Panics
     /// Panics if the counts have no such window, or one is above the largest.
     pub fn new(sigma: f64, counts: &Counts, column: Column) -> RisePoint {
         let Column { window_index, largest } = column;

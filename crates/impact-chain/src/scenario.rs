@@ -120,8 +120,6 @@ impl Scenario {
     }
 
     /// Returns the place of equilibrium of body m: a mass, or a wall (0 or n + 1).
-    ///
-    /// # Panics
     /// Panics if `places` has no place of this body.
     pub fn place(&self, m: usize) -> f64 {
         self.places.as_ref().map_or(m as f64 * self.spacing, |places| places[m])

@@ -29,8 +29,6 @@ const UNITS: f64 = 16.0;
 
 impl State {
     /// Returns the state of a scenario at t = 0.
-    ///
-    /// # Panics
     /// Panics if `places`, or the amplitudes of an overtone, are fewer than the scenario's bodies.
     /// [`Scenario::validate`] refuses these.
     pub fn from_scenario(scenario: &Scenario) -> State {

@@ -1,7 +1,7 @@
 //! Compares the next impact from one state with the reference, before chaos has had time to act.
 
+use crate::given;
 use crate::reference::{Dd, Reference};
-use crate::{first, given};
 use impact_chain::rounding::TIME;
 use impact_chain::{Boundary, Chain, End, Engine, Event, Initial, Overtone, Scenario};
 use impact_numerics::random::{NormalPairs, Seed};
@@ -45,7 +45,7 @@ fn hold(scenario: &Scenario, until: f64, tally: &mut Tally) {
     let start = Reference::new(scenario);
     let Ok(theirs) = start.clone().step(Dd::from(until)) else { return };
     let mut engine = Engine::new(scenario).unwrap();
-    let ours = first(&mut engine, until);
+    let ours = engine.next_impact(until).unwrap();
     tally.evaluations += engine.counters().evaluations;
     tally.segments += 1;
     let allowed = |gap, speed| bounds(&start, scenario, gap, speed);
@@ -164,7 +164,7 @@ fn components_that_nearly_cancel_are_soon_passed() {
     parts.overtones.push(Overtone { frequency, amplitudes: vec![[3.2e-6, -5.4e-6]] });
     let [(sum, _), (hit, rate)] = [whole, parts].map(|scenario| {
         let mut engine = Engine::new(&scenario).unwrap();
-        let hit = first(&mut engine, 1e6).expect("it closes in the end");
+        let hit = engine.next_impact(1e6).unwrap().expect("it closes in the end");
         (hit, engine.counters().evaluations as f64 / hit.time)
     });
     let error = (hit.time - sum.time).abs() * sum.closing_speed;

@@ -1,6 +1,6 @@
 //! Tests the rivals of the engine: each converges at its order, and fails as documented.
 
-use crate::{drawn, given, run, unforced};
+use crate::{drawn, given, unforced};
 use impact_chain::methods::{
     Advancement, Certified, Cost, CountedSteps, Method, MoreauJean, Penalty, RungeKutta, Sampled,
     Task, Verlet, VerletAbreast,
@@ -109,7 +109,7 @@ fn runs_stop_and_go_on() {
         let mut engine = Engine::new(&scenario).unwrap();
         engine.advance(30.0).unwrap();
         let start = engine.state(30.0).unwrap();
-        let exact = run(&mut engine, 40.0);
+        let exact = engine.impacts(40.0).unwrap();
         let more: Box<dyn Method> = Box::new(Sampled { step: 0.1, least_rebound: 0.0 });
         for method in methods(|size| size).into_iter().chain([more]) {
             let name = method.name();
