@@ -269,8 +269,8 @@ mod tests {
     fn bounds_of_all_parts() {
         let gap = Local { u: 3.0, q: -4.0, v: -2.0, z: 8.0, ratio: 3.0 };
         let [second, change] = gap.curvature(0.125);
-        for (found, exact) in [(second, 15.0), (8.0 * change, 133.0), (gap.bend(), 35.0)] {
-            assert!((0.0..2e-12).contains(&(found / exact - 1.0)), "{found} {exact}");
+        for (bound, exact) in [(second, 15.0), (8.0 * change, 133.0), (gap.bend(), 35.0)] {
+            assert!((0.0..2e-12).contains(&(bound / exact - 1.0)), "{bound} {exact}");
         }
     }
 
@@ -279,8 +279,8 @@ mod tests {
     fn gaps_that_are_open_by_their_ends() {
         let (start, end) = (-0.125, 0.125);
         let part = Part { start, end, after: start, just_hit: false, tame: false };
-        for (rate, at, v) in [(0.0, 0.03, 0.0), (-0.1, 0.0, 0.34), (0.1, 0.0, 0.34)] {
-            let gap = |width: f64| gap_with(width, rate, at, [v, 0.0], 2.0);
+        for (rate, place, v) in [(0.0, 0.03, 0.0), (-0.1, 0.0, 0.34), (0.1, 0.0, 0.34)] {
+            let gap = |width: f64| gap_with(width, rate, place, [v, 0.0], 2.0);
             let height = |width: f64| {
                 let gap = gap(width);
                 let ([f0, rate0], [f1, rate1]) =
@@ -296,13 +296,13 @@ mod tests {
             assert!(!gap(width - 1e-13).is_open(part), "{rate} {v}: {width}");
         }
         let (hit, tame) = (Part { just_hit: true, ..part }, Part { tame: true, ..part });
-        for (width, rate, at, v, part) in [
+        for (width, rate, place, v, part) in [
             (0.05, 0.0, 0.0, 2.0, part),
             (0.0, 0.1, start, 0.0, hit),
             (0.5, 2.0, start, 2.0, tame),
             (0.5, -2.0, end, 2.0, tame),
         ] {
-            assert!(gap_with(width, rate, at, [v, 0.0], 2.0).is_open(part), "{width} {rate}");
+            assert!(gap_with(width, rate, place, [v, 0.0], 2.0).is_open(part), "{width} {rate}");
         }
         assert!(!gap_with(0.9 * MARGIN, 0.1, start, [0.0; 2], 2.0).is_open(part));
     }

@@ -180,13 +180,13 @@ impl Gaps {
         let width = S::f64s::LEN;
         for word in 0..self.low.len() {
             let (first, mut low) = (WORD * word, 0);
-            for at in (first..self.sag.len().min(first + WORD)).step_by(width) {
-                let row = |row: &[f64]| S::f64s::from_slice(simd, &row[at..at + width]);
+            for begin in (first..self.sag.len().min(first + WORD)).step_by(width) {
+                let row = |row: &[f64]| S::f64s::from_slice(simd, &row[begin..begin + width]);
                 let mut f = S::f64s::splat(simd, self.spacing);
                 for (part, &(sin, cos)) in self.parts.iter().zip(step.phases) {
                     f += row(&part.cos) * cos + row(&part.sin) * sin;
                 }
-                low |= f.simd_lt(row(&self.sag)).to_bitmask() << (at - first);
+                low |= f.simd_lt(row(&self.sag)).to_bitmask() << (begin - first);
             }
             let mut look = low | std::mem::replace(&mut self.low[word], low);
             while look != 0 {

@@ -31,7 +31,8 @@ struct Tally {
 fn bounds(start: &Reference, scenario: &Scenario, gap: usize, speed: f64) -> Option<[f64; 2]> {
     let w = scenario.natural_frequency;
     // Where Δ is zero, Δ'' is ω² d and the forcing of both neighbours at most.
-    let force = |j: usize| scenario.components().map(move |(_, all)| all[j][0].hypot(all[j][1]));
+    let force =
+        |j: usize| scenario.components().map(move |(_, pairs)| pairs[j][0].hypot(pairs[j][1]));
     let forces: f64 = start.sides(gap).into_iter().flatten().flat_map(force).sum();
     let near_root = w * w * scenario.spacing * (1.0 + 1e-4) + forces;
     let (rounding, bend) = (f64::EPSILON * start.scale(gap), start.gap(gap).bend().min(near_root));
@@ -71,7 +72,8 @@ fn hold(scenario: &Scenario, until: f64, tally: &mut Tally) {
             // Allowed only if one of the two is a graze, or both fall together.
             let ours = ours.map(|a| (a.gap, a.closing_speed, Dd::from(a.time)));
             let both = [ours, theirs.map(|b| (b.gap, b.closing_speed.hi, b.time))];
-            let errors = both.iter().flatten().map(|hit| allowed(hit.0, hit.1).map(|all| all[0]));
+            let errors =
+                both.iter().flatten().map(|hit| allowed(hit.0, hit.1).map(|bounds| bounds[0]));
             let [a, b] = both.map(|hit| hit.map_or(Dd::from(until), |hit| hit.2));
             // Without a sum one of them grazes.
             let room = errors.sum::<Option<f64>>().map(|sum| sum + 0.5 * until * f64::EPSILON);

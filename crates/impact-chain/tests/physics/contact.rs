@@ -256,8 +256,8 @@ fn inelastic(v: &[f64]) -> Vec<f64> {
     for &velocity in v {
         let mut run = (velocity, 1);
         while let Some(&(mean, count)) = runs.last().filter(|(mean, _)| *mean >= run.0) {
-            let all = (count + run.1) as f64;
-            run = ((mean * count as f64 + run.0 * run.1 as f64) / all, count + run.1);
+            let members = (count + run.1) as f64;
+            run = ((mean * count as f64 + run.0 * run.1 as f64) / members, count + run.1);
             runs.pop();
         }
         runs.push(run);

@@ -136,7 +136,7 @@ fn runs_stop_and_go_on() {
 #[test]
 fn vectors_change_no_bits() {
     let traces = || {
-        let chains = [Boundary::Walls, Boundary::Ring].map(|at| chain(70, at, 0.3, 1));
+        let chains = [Boundary::Walls, Boundary::Ring].map(|boundary| chain(70, boundary, 0.3, 1));
         let runs = methods(|size| size)
             .into_iter()
             .flat_map(|method| chains.each_ref().map(|scenario| trace(&*method, scenario, 10.0).0));
