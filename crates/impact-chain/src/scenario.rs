@@ -105,7 +105,6 @@ impl Scenario {
     }
 
     /// Returns its chain, with the start left out: places and overtones have no part in it.
-    #[cfg(any(feature = "ensembles", feature = "methods"))]
     pub fn chain(&self) -> Chain {
         Chain {
             masses: self.forcing.len(),
