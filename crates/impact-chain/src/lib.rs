@@ -41,7 +41,6 @@ mod error;
 mod events;
 mod flight;
 mod force;
-mod forcing;
 mod impact;
 #[cfg(feature = "methods")]
 pub mod methods;

@@ -167,4 +167,21 @@ impl Scenario {
     pub fn gaps(&self) -> usize {
         self.boundary.gaps(self.forcing.len())
     }
+
+    /// Returns the amplitudes of cos ωt, sin ωt, cos Ωt and sin Ωt of each gap, in units of d.
+    #[cfg(any(feature = "ensembles", feature = "methods"))]
+    pub(crate) fn gap_amplitudes(&self) -> Vec<[f64; 4]> {
+        let topology = crate::topology::Topology::new(self.forcing.len(), self.boundary);
+        let mut bodies = vec![[0.0; 4]; self.forcing.len() + 2];
+        for (j, forces) in self.forcing.iter().enumerate() {
+            let [a, b] = self.free_part(j);
+            let [c, d] = response(self.natural_frequency, self.forcing_frequency, *forces);
+            bodies[j + 1] = [a, b, c, d];
+        }
+        let gap = |gap| {
+            let [left, right] = topology.sides(gap).map(|body| bodies[body]);
+            std::array::from_fn(|i| (right[i] - left[i]) / self.spacing)
+        };
+        (0..topology.gaps()).map(gap).collect()
+    }
 }

@@ -14,7 +14,6 @@ mod proof;
 mod roots;
 mod slot;
 
-use crate::forcing::gap_amplitudes;
 use crate::vectors::vector_level;
 use crate::{Boundary, Chain, Counts, Engine, Error, HitGaps, Protocol, Scenario, Watch};
 use columns::Columns;
@@ -188,7 +187,7 @@ impl Abreast {
             slot.hand_over();
             return slot;
         }
-        for (gap, amplitudes) in gap_amplitudes(scenario).into_iter().enumerate() {
+        for (gap, amplitudes) in scenario.gap_amplitudes().into_iter().enumerate() {
             let width = 1.0 + amplitudes[0] + amplitudes[2];
             let is_bounded = columns.set(place, gap, amplitudes, &self.plan);
             if !is_bounded || width.is_nan() || width <= OPEN {

@@ -1,9 +1,9 @@
 //! Holds the row of masses for integrators: displacements, velocities, forces, impact law.
 
+use super::forcing::{Component, Phases, phases};
 use super::method::Task;
 use super::steps::Step;
 use crate::Error;
-use crate::forcing::{Component, Phases, phases};
 use crate::scenario::COMPONENTS;
 use crate::search::clock::{Instant, Rate};
 use crate::topology::Topology;

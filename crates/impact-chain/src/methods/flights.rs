@@ -1,9 +1,9 @@
 //! Computes flight in closed form, for methods that evaluate gaps at given times.
 
+use super::forcing::{Component, Phases, phases};
 use super::method::Task;
 use crate::Error;
 use crate::flight::{INFLATION, length};
-use crate::forcing::{Component, Phases, phases};
 use crate::impact::share_change;
 use crate::search::clock::{Instant, Rate};
 use crate::topology::Topology;

@@ -14,6 +14,7 @@
 mod advancement;
 mod bodies;
 mod flights;
+mod forcing;
 mod method;
 mod moreau_jean;
 mod penalty;

@@ -1,12 +1,12 @@
 //! Simulates by sampling gaps on a grid of times; Newton's method finds zeros between.
 
 use super::flights::{Flights, is_open};
+use super::forcing::Component;
 use super::method::Task;
 use super::rival::{Rival, Run, Stepper, Stop, Tally, run_steps};
 use super::steps::Step;
 use crate::Error;
 use crate::flight::length;
-use crate::forcing::Component;
 use crate::impact::share_change;
 use crate::search::clock::{Instant, Rate};
 use crate::topology::Topology;

@@ -3,7 +3,6 @@
 use super::method::{Cost, Method, Sealed, Task};
 use super::steps::{Steps, check_end};
 use crate::flight::length;
-use crate::forcing::gap_amplitudes;
 use crate::impact::share_change;
 use crate::search::clock::Rate;
 use crate::topology::Topology;
@@ -90,7 +89,7 @@ impl VerletAbreast {
                 let problem = "verlet-abreast supports equal chains with one frequency";
                 return Err(Error::input("forcing_frequencies", problem, "use another method"));
             }
-            let gaps = gap_amplitudes(scenario);
+            let gaps = scenario.gap_amplitudes();
             let reach = |[a, b, c, d]: [f64; 4]| length([a, b]) + length([c, d]);
             if gaps.iter().any(|gap| reach(*gap) >= 1.0) {
                 may_close.push((number, gaps));
