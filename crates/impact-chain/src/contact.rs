@@ -77,12 +77,12 @@ impl<const M: usize> Simulation<M> {
         }
         changed.insert(k, Changed { width: 0.0, rate, is_settled: self.is_settled(0.0, rate) });
         for near in self.topology.near(k) {
-            if !changed.contains_key(&near) {
+            changed.entry(near).or_insert_with(|| {
                 let jump = self.jump_of_gap(near, k, jumps);
                 let mut gap = self.changed(near, phases, jump);
                 gap.is_settled |= has_joined(near) && self.is_settled(gap.width, gap.rate - jump);
-                changed.insert(near, gap);
-            }
+                gap
+            });
         }
         if inelastic {
             self.joined.1.push(k);
