@@ -3,6 +3,7 @@
 use super::{Dd, EPS, sin_cos};
 
 /// Δ(t) = d + a cos ωt + b sin ωt + Σ (c cos Ωt + e sin Ωt).
+#[derive(Clone, Debug)]
 pub struct Gap {
     /// d.
     pub spacing: Dd,
@@ -74,8 +75,8 @@ impl Gap {
         if start < to { self.search(start, to) } else { Ok(None) }
     }
 
-    /// Depth first, left first: a piece is excluded by its enclosure, decided by the sign at its
-    /// end where Δ is monotone, and halved otherwise.
+    /// Depth first, left first: a piece is excluded by its enclosure, decided by the signs at its
+    /// ends where Δ is monotone, cut at its extremum where Δ' is, and halved otherwise.
     fn search(&self, from: Dd, to: Dd) -> Result<Option<Dd>, String> {
         let [_, _, third] = self.bounds();
         let mut stack = vec![[from, to]];
@@ -88,36 +89,60 @@ impl Gap {
             if f > falls * (1.0 + 1e-13) {
                 continue;
             }
-            if g.abs() > (k.abs() * h + 0.5 * third * h * h) * (1.0 + 1e-13) {
-                if g < 0.0 && self.jet(to)[0] <= Dd::ZERO {
-                    return Ok(Some(self.root(from, to)));
+            let is_monotone = g.abs() > (k.abs() * h + 0.5 * third * h * h) * (1.0 + 1e-13);
+            if is_monotone || k.abs() > third * h * (1.0 + 1e-13) {
+                if let Some(root) = self.unimodal(from, to, k > 0.0) {
+                    return Ok(Some(root));
                 }
                 continue;
             }
             if h < 1e-13 {
-                return Err(format!("a double root at t = {}", middle.hi));
+                return Err(format!("a triple root at t = {}", middle.hi));
             }
             stack.extend([[middle, to], [from, middle]]);
         }
         Ok(None)
     }
 
-    /// The root in (from, to], where Δ falls: by Newton's method, or halves if it leads out.
-    fn root(&self, mut from: Dd, mut to: Dd) -> Dd {
-        let mut root = to;
-        for _ in 0..400 {
-            let [f, slope, _] = self.jet(root);
-            *if f > Dd::ZERO { &mut from } else { &mut to } = root;
-            let newton = root - f / slope;
-            let is_inside = newton > from && newton < to;
-            let next = if is_inside { newton } else { from + Dd::from(0.5) * (to - from) };
-            let change = (next - root).hi.abs() / next.hi.abs().max(1e-3);
-            root = next;
+    /// The first root in a piece where Δ' or Δ'' keeps its sign.
+    fn unimodal(&self, from: Dd, to: Dd, convex: bool) -> Option<Dd> {
+        let slope = |t: Dd| self.jet(t)[1];
+        let [falls_before, falls] = [from, to].map(|t| slope(t) < Dd::ZERO);
+        if falls_before == falls {
+            return (falls && self.closed(to)).then(|| self.bisect(from, to, 0, -1.0));
+        }
+        let turn = self.bisect(from, to, 1, if convex { 1.0 } else { -1.0 });
+        let (left, right) = if convex { (from, turn) } else { (turn, to) };
+        self.closed(right).then(|| self.bisect(left, right, 0, -1.0))
+    }
+
+    fn closed(&self, t: Dd) -> bool {
+        self.jet(t)[0] <= Dd::ZERO
+    }
+
+    /// The place in (from, to] where Δ or Δ', times a sign, rises through zero: bisection down to
+    /// a small piece, then Newton steps kept inside it.
+    fn bisect(&self, mut from: Dd, mut to: Dd, order: usize, sign: f64) -> Dd {
+        let mut best = to;
+        for step in 0..400 {
+            let jet = self.jet(best);
+            let [f, slope] = [jet[order] * sign, jet[order + 1] * sign];
+            if f >= Dd::ZERO {
+                to = best;
+            } else {
+                from = best;
+            }
+            let newton = best - f / slope;
+            let wide = to - from;
+            let halves = step % 3 == 2 && wide.hi > 1e-6 || !(newton > from && newton < to);
+            let next = if halves { from + Dd::from(0.5) * wide } else { newton };
+            let change = (next - best).hi.abs() / next.hi.abs().max(1e-3);
+            best = next;
             // A step of Newton's method doubles the digits.
-            if change <= if is_inside { 1e-4 * EPS.sqrt() } else { 4.0 * EPS } {
+            if change <= if halves { 4.0 * EPS } else { 1e-4 * EPS.sqrt() } {
                 break;
             }
         }
-        root
+        best
     }
 }
