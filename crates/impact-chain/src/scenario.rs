@@ -64,7 +64,8 @@ impl Scenario {
     /// **Eq. (5)**
     ///
     /// Draws the amplitudes α_j, β_j of the forcing α_j cos Ωt + β_j sin Ωt with standard deviation
-    /// `sigma` from `normals`: n pairs of the forcing, then, for a random start, of the free part.
+    /// `sigma` from `normals`: first the n pairs of the forcing, then, for a random start, n of the
+    /// free part.
     #[cfg(feature = "random")]
     pub fn draw(chain: &Chain, sigma: f64, normals: &mut NormalPairs) -> Scenario {
         let mut scenario = Scenario::with_forcing(chain, draw_pairs(chain.masses, sigma, normals));

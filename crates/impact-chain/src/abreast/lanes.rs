@@ -127,8 +127,8 @@ impl<'a> Lanes<'a> {
         flags[flagged] = (0, 0);
     }
 
-    /// Makes candidates of the flagged gaps of a block that are below zero at the end, and decides
-    /// about the others.
+    /// Makes candidates of the flagged gaps of a block that are below zero at the end of the step,
+    /// and decides about the others.
     ///
     /// A tame gap with a root has a minimum ≤ 0 within the step and is convex there (see
     /// [`Part::tame`]), so f' < 0 at the start and f' ≥ 0 at the end, and the tangents meet below
@@ -158,7 +158,8 @@ impl<'a> Lanes<'a> {
     }
 
     /// Makes candidates of gaps that are below zero at the end of a part of the step, and decides
-    /// about other gaps by themselves: bits of the columns from this one on. The second may be hit.
+    /// about other gaps by themselves: bits of the columns from this one on. The second may have
+    /// been hit.
     #[inline(always)]
     fn find(&mut self, column: usize, [below, dips, tame]: [u8; 3], part: Part, middle: Phases) {
         let mut bits = below | dips;

@@ -4,7 +4,8 @@
 //! shares its value and first three derivatives at both ends (Hermite). The difference is at most
 //! M₈ (s − a)⁴ (a + w − s)⁴ / 8!, a polynomial of degree eight with one Bernstein coefficient, so
 //! q, p minus the difference, is below f and its nine Bernstein coefficients bound it from below.
-//! They are linear in f₀, g₀, α, γ and δ, with factors by frequencies and piece, tabulated once.
+//! They are linear in f₀, g₀, α, γ and δ, with factors by frequencies and piece alone, tabulated
+//! once.
 
 use super::linear::{Linear, Taylor};
 use super::local_frame::{Frame, Frequencies};
