@@ -145,7 +145,8 @@ impl Law {
         self.weights().map(|weights| weights.moment() / Scaled::from(weights.k))
     }
 
-    /// Returns the share of a class of circuits in P(X = k), k = 1..=N, in a space of five classes.
+    /// Returns the share of one class of circuits in P(X = k), for k = 1..=N; the sample space must
+    /// have the five classes.
     pub fn contribution(&self, class: &higher_order::Class) -> Vec<f64> {
         let total = self.sums().total;
         let extra = (0..class.excess()).fold(Scaled::ONE, |w, _| w * self.p);

@@ -30,7 +30,8 @@ const SATURATED: f64 = 6.25;
 /// Order of the quadratures: many more points than the smooth integrands need.
 const POINTS: usize = 48;
 
-/// Where the exponent E of p is below this, p is 1 − (1 − p), which is right to its last bit.
+/// Where the exponent E of p is below this, p is 1 − (1 − p): the rounding of 1 − p is then below
+/// the last bit of p.
 const SMALL_EXPONENT: f64 = 0.01;
 
 /// Beyond this exponent s is above 1e135, where squares of double-doubles lose digits.
@@ -188,7 +189,8 @@ impl ImpactProbability {
     /// **Eq. (20)**
     ///
     /// Returns 1 − p = P(Y_0 + Y_1/|ω² − Ω²| < d), the probability that the gap never closes,
-    /// also where it is tiny (large σ): an integral of positive terms over the wider amplitude.
+    /// accurate even when it is tiny (large σ): an integral over the wider amplitude of positive
+    /// terms.
     pub fn complement(&self) -> f64 {
         let (s, t) = self.reduced_spacings();
         let (s2, t_value) = (square(s).to_f64(), t.to_f64());

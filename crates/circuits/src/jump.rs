@@ -170,7 +170,8 @@ pub fn limit_share(p_big_n: f64) -> f64 {
     (1.0 - 1.0 / p_big_n).max(0.0)
 }
 
-/// Returns the larger root of k² = 2 N (ln k − 1), about k* after its jump; none for N ≤ e³ (ours).
+/// Returns the larger root of k² = 2 N (ln k − 1), about k* after its jump, or `None` for N ≤ e³
+/// (ours).
 pub fn jump_rule(big_n: usize) -> Option<f64> {
     let big_n = big_n as f64;
     let beyond = |k: f64| k * k >= 2.0 * big_n * (pxfm::f_log(k) - 1.0);

@@ -7,11 +7,11 @@
 //! decided for the whole run, not pair by pair: a gap that would open alone may be held shut by its
 //! neighbours.
 //!
-//! In a cluster each contact force is L + C cos Ωt + S sin Ωt exactly, so its first zero is found
-//! by the same certified search as an impact. A hit from outside frees the masses of the cluster,
-//! is carried through it by the impact law, and slow gaps are settled again. Masses that an impact
-//! without rebound has joined move as one until the next instant, so at r = 0 each gap of a cluster
-//! is hit once.
+//! In a cluster each contact force is L + C cos Ωt + S sin Ωt exactly, so its first zero is
+//! found by the same certified search as an impact. A hit from outside frees the masses of the
+//! cluster, is carried through it by the impact law, and slow gaps are settled again. Masses that
+//! an impact without rebound has joined move as one until the next instant, so without restitution
+//! each gap of a cluster is hit once.
 
 use super::complementarity::contact_forces;
 use super::flight::{Motion, Phases};

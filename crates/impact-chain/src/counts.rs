@@ -43,7 +43,8 @@ impl Protocol {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Deserialize, serde::Serialize))]
 pub struct Counts {
-    /// Different gaps with an impact, by window and realisation; none if the run ended before.
+    /// Different gaps with an impact, by window and realisation, or `None` if the run ended before
+    /// the window.
     pub distinct: Vec<Vec<Option<u32>>>,
     /// Impacts in each window, of each realisation.
     pub impacts: Vec<Vec<u64>>,

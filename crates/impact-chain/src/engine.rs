@@ -75,7 +75,8 @@ impl Engine {
         Ok(impacts)
     }
 
-    /// Returns the next impact up to time `until`, or `None`; the run stops right after it.
+    /// Returns the next impact up to time `until`, or `None` if there is no impact; the run stops
+    /// right after it.
     pub fn next_impact(&mut self, until: f64) -> Result<Option<Impact>, Error> {
         let mut next = None;
         self.observe(until, &mut |event, _| match event {
@@ -144,7 +145,8 @@ impl Engine {
         call!(&self.0, simulation => simulation.state(time))
     }
 
-    /// Returns the free parts (a_j, b_j) of the masses 1..n; a cluster shares one.
+    /// Returns the free parts (a_j, b_j) of the masses 1..n, from the time of the start on; a
+    /// cluster shares one.
     pub fn free_parts(&self) -> Vec<[f64; 2]> {
         call!(&self.0, simulation => simulation.free_parts())
     }

@@ -162,7 +162,8 @@ impl<const M: usize> Simulation<M> {
         }
     }
 
-    /// Searches on until the next event up to `end` is known; returns its time, or `None`.
+    /// Searches on until the next event up to `end` is known; returns its time, or `None` if there
+    /// is no event.
     pub fn next_time(&mut self, end: Instant) -> Result<Option<f64>, Error> {
         loop {
             if let Some(first) = self.first_waiting(end) {
@@ -297,7 +298,8 @@ impl<const M: usize> Simulation<M> {
         Ok(None)
     }
 
-    /// Passes a dip of gap k that rounding hides; returns the next key of the gap, or `None`.
+    /// Passes a dip of gap k that rounding hides; returns the next key of the gap, or `None` if
+    /// there is no dip.
     #[inline(always)]
     fn pass_dip(&mut self, k: usize) -> Option<Instant> {
         let frame = &self.gaps[k].frame;

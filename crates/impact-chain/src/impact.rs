@@ -21,7 +21,8 @@ pub struct Impact {
 pub enum Event {
     /// A gap closed, and its neighbours parted at once.
     Impact(Impact),
-    /// Gaps are shut and pressed from now on, after chattering, a slow impact, or at the start.
+    /// Gaps are shut and pressed from now on, as a chattering or a slow impact ended, or at the
+    /// start.
     Stick {
         /// Time t, in the units of the scenario.
         time: f64,

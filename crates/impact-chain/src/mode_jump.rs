@@ -1,4 +1,5 @@
-//! Finds where the most likely count jumps as σ grows: where one peak of counts overtakes another.
+//! Finds where the most likely count jumps as σ grows: where one peak of the distribution of counts
+//! overtakes another.
 //!
 //! The counts 1 to N of the realisations with an impact have three parts: one number at an *end*
 //! (all N gaps, or a single one), the *bulk*, which is at least N/10 from it, and the numbers
@@ -212,7 +213,8 @@ impl Passing {
         Passing { sigma, peak: place(|crossing| crossing.peak), clearance }
     }
 
-    /// Returns whether the mode surely jumps (true) or climbs (false), if either is sure.
+    /// Returns whether the mode surely jumps (true) or surely climbs (false), or `None` if neither
+    /// is sure.
     pub fn is_jump(&self) -> Option<bool> {
         let [low, high] = self.clearance?.interval;
         (low > 0.0 || high < 0.0).then_some(low > 0.0)

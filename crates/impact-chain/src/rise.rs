@@ -38,7 +38,8 @@ impl Mean {
         Some(Mean { value: mean(sample)?, error: standard_error(sample), interval: None })
     }
 
-    /// Returns the mean with its standard error and the normal interval, if it has one.
+    /// Returns the mean with its standard error and the normal interval, or `None` if it has no
+    /// error.
     pub fn estimate(&self) -> Option<Estimate> {
         Some(with_error(self.value, self.error?))
     }
@@ -261,7 +262,8 @@ impl Resampled {
         Resampled { whole, resamples, largest: sample.largest() }
     }
 
-    /// Estimates a quantity with its bootstrap error, or `None` if too many have no value.
+    /// Estimates a quantity with its bootstrap error, or returns `None` if too many resamples have
+    /// no value.
     fn estimate(&self, pick: impl Fn(&Places) -> Option<f64>) -> Option<Estimate> {
         let resamples: Vec<_> = self.resamples.iter().map(&pick).collect();
         bootstrap::estimate(pick(&self.whole), &resamples, LEVEL)
@@ -282,7 +284,8 @@ impl Resampled {
         }
     }
 
-    /// Returns the interval of the mode at a σ, from order statistics, if there is one.
+    /// Returns the interval of the mode at a σ, from order statistics, or `None` if there is no
+    /// mode.
     fn mode_interval(&self, row: usize) -> Option<[usize; 2]> {
         self.whole.mode[row]?;
         let mut histogram = vec![0; self.largest + 1];

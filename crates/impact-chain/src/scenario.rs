@@ -47,7 +47,8 @@ pub struct Scenario {
     /// Further components of the forcing, Eq. (3); the paper has none.
     pub overtones: Vec<Overtone>,
     /// Equilibria of left wall, masses 1..n and right wall, or `None` if they are j d, as in the
-    /// paper. A constant force F on a mass shifts its place by F/ω². A ring has no walls.
+    /// paper. A constant force F on a mass shifts its place by F/ω². On a ring the walls' have no
+    /// meaning.
     pub places: Option<Vec<f64>>,
 }
 
@@ -63,9 +64,9 @@ pub struct Overtone {
 impl Scenario {
     /// **Eq. (5)**
     ///
-    /// Draws the amplitudes α_j, β_j of the forcing α_j cos Ωt + β_j sin Ωt with standard deviation
-    /// `sigma` from `normals`: first the n pairs of the forcing, then, for a random start, n of the
-    /// free part.
+    /// Draws the amplitudes α_j, β_j of the forcing α_j cos Ωt + β_j sin Ωt with standard
+    /// deviation `sigma` from `normals`: first the n pairs of the forcing, then, for a random
+    /// start, the n pairs of the free part.
     #[cfg(feature = "random")]
     pub fn draw(chain: &Chain, sigma: f64, normals: &mut NormalPairs) -> Scenario {
         let mut scenario = Scenario::with_forcing(chain, draw_pairs(chain.masses, sigma, normals));

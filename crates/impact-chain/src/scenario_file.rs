@@ -82,8 +82,9 @@ impl Scenario {
     /// Reads a scenario from JSON: `{"forcing": [[α₁, β₁], …]}`, with those fields of
     /// [`Chain`] that differ from the paper's.
     ///
-    /// `"initial"` is `"rest"`, `"zero"`, `{"free": [[a₁, b₁], …]}`, `{"at": {"positions": [x₁, …],
-    /// "velocities": [v₁, …]}}` or `{"random": {"sigma": σ, "seed": k}}`. Several components are
+    /// `"initial"` is `"rest"`, `"zero"`, `{"free": [[a₁, b₁], …]}`,
+    /// `{"at": {"positions": [x₁, …], "velocities": [v₁, …]}}` or
+    /// `{"random": {"sigma": σ, "seed": k}}`. Several components are
     /// `"forcing_frequencies": [Ω₁, …]` with a list of pairs for each. `"places": [p₁, …]` and
     /// `"walls": [p₀, pₙ₊₁]` are places of equilibrium other than j d; a ring has no walls.
     ///
@@ -101,8 +102,8 @@ impl Scenario {
     }
 
     /// Writes the scenario as JSON in one line, from which [`Scenario::from_json`] reads the same,
-    /// without the places of the walls on a ring. One that [`Scenario::validate`] refuses may not
-    /// be read again.
+    /// without the places of the walls on a ring. One that [`Scenario::validate`] refuses is not
+    /// read again, or as another.
     pub fn to_json(&self) -> String {
         serde_json::to_string(self).unwrap_or_default()
     }
@@ -144,6 +145,7 @@ impl Serialize for Scenario {
     }
 }
 
+
 fn read_file(text: &str) -> Result<ScenarioFile, Error> {
     // Fields have names: an array is not taken for them by position.
     let value: Value = serde_json::from_str(text).unwrap_or_default();
@@ -184,7 +186,8 @@ fn read_file(text: &str) -> Result<ScenarioFile, Error> {
     Ok(file)
 }
 
-/// Returns whether JSON could not be read because of NaN or an infinity, which are no JSON.
+/// Returns whether JSON could not be read because of NaN or an infinity, for which it has no
+/// number.
 fn is_not_finite(text: &str, error: &serde_json::Error) -> bool {
     let line = text.lines().nth(error.line().saturating_sub(1)).unwrap_or_default();
     let rest = line.get(error.column().saturating_sub(1)..).unwrap_or_default();

@@ -53,7 +53,8 @@ pub fn ratio(pairs: &[[f64; 2]]) -> Option<Estimate> {
 mod tests {
     use super::*;
 
-    /// Returns whether an estimate has this value and error, and the normal interval, to 1e-9.
+    /// Returns whether an estimate has this value and error, and their normal interval, to nine
+    /// digits.
     fn near(estimate: Estimate, [value, error]: [f64; 2]) -> bool {
         let half = 1.959_963_985 * error;
         let [low, high] = estimate.interval;

@@ -48,8 +48,8 @@ impl NormalPairs {
 mod tests {
     use super::*;
 
-    /// Moments of 100 000 pairs within four of their standard deviations, and a stream for each
-    /// key.
+    /// Moments of 100 000 pairs within four of their standard deviations, and other streams for
+    /// other keys.
     #[test]
     fn pairs_are_independent_standard_normals() {
         let mut normals = NormalPairs::new("moments", Seed(1), 0);

@@ -20,7 +20,8 @@ pub fn mean(sample: &[f64]) -> Option<f64> {
     (!sample.is_empty()).then(|| sample.iter().sum::<f64>() / sample.len() as f64)
 }
 
-/// Returns the standard deviation with n − 1 degrees of freedom, or `None` below two values.
+/// Returns the standard deviation with n − 1 degrees of freedom, or `None` below two
+/// values.
 pub fn standard_deviation(sample: &[f64]) -> Option<f64> {
     let centre = mean(sample)?;
     let squares: f64 = sample.iter().map(|x| (x - centre) * (x - centre)).sum();
@@ -43,8 +44,8 @@ pub fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
     Some(sorted[below] + rest * (sorted[above] - sorted[below]))
 }
 
-/// Returns the smallest k with at least `share` of a histogram at or below it, or `None` without
-/// counts.
+/// Returns the smallest k with at least `share` of a histogram at or below it, or `None` if the
+/// histogram is empty.
 pub fn count_quantile(histogram: &[u32], share: f64) -> Option<usize> {
     let total: u64 = histogram.iter().copied().map(u64::from).sum();
     let mut below = 0;
@@ -54,7 +55,8 @@ pub fn count_quantile(histogram: &[u32], share: f64) -> Option<usize> {
     })
 }
 
-/// Returns the most frequent number of a histogram, the lowest of several, if there is one.
+/// Returns the most frequent number of a histogram, the lowest of several, or `None` if it is
+/// empty.
 pub fn mode(histogram: &[u32]) -> Option<usize> {
     let most = *histogram.iter().max()?;
     (most > 0).then(|| histogram.iter().position(|&count| count == most))?
@@ -98,7 +100,8 @@ pub fn clopper_pearson(successes: u64, trials: u64, level: f64) -> Option<[f64; 
 }
 
 /// Returns the x at which y(x) passes `level` for the last time, linear between the points that
-/// have a value: no later point is below it. `None` if y ends below the level or never is.
+/// have a value: no later point is below it. `None` if y ends below the level or never lies below
+/// it.
 pub fn last_rise(x: &[f64], y: &[Option<f64>], level: f64) -> Option<f64> {
     let points: Vec<(f64, f64)> = x.iter().zip(y).filter_map(|(&x, &y)| Some((x, y?))).collect();
     let below = points.iter().rposition(|&(_, y)| y < level)?;

@@ -73,7 +73,8 @@ impl Columns {
         forced < LARGEST && free + square * forced < LARGEST
     }
 
-    /// Returns the amplitudes A, B, C and D of the gap in a column, in units of d.
+    /// Returns the amplitudes of the gap in a column, in units of d: of cos ωt, sin ωt, cos Ωt and
+    /// sin Ωt.
     #[inline(always)]
     pub fn amplitudes(&self, column: usize) -> [f64; 4] {
         [A, B, C, D].map(|row| self.rows[row][column])

@@ -159,7 +159,7 @@ impl<'a> Lanes<'a> {
 
     /// Makes candidates of gaps that are below zero at the end of a part of the step, and decides
     /// about other gaps by themselves: bits of the columns from this one on. The second may have
-    /// been hit.
+    /// just been hit.
     #[inline(always)]
     fn find(&mut self, column: usize, [below, dips, tame]: [u8; 3], part: Part, middle: Phases) {
         let mut bits = below | dips;

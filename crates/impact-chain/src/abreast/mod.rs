@@ -53,7 +53,8 @@ pub struct Realisation {
     free: Vec<[f64; 2]>,
 }
 
-/// Counts the impacts of many realisations of a chain: side by side, or by the engine.
+/// Counts the impacts of many realisations of a chain: side by side, or by the engine where that
+/// cannot be.
 #[derive(Clone, Debug)]
 pub struct Counting {
     chain: Chain,
@@ -102,7 +103,8 @@ impl Counting {
 impl Abreast {
     /// Prepares runs of a chain through the windows that end by `until`, or to `until` if there are
     /// no windows. Returns `None` if all of them are left to the engine: with r near 0, where
-    /// masses stick, r = 1, where it keeps the energy, rings of one or two masses, and long runs.
+    /// masses stick, r = 1, where it keeps the energy, rings of one or two masses, and very long
+    /// runs.
     pub fn new(chain: &Chain, windows: &[Protocol], until: f64) -> Option<Abreast> {
         let frequencies = [chain.natural_frequency, chain.forcing_frequency];
         let mut watch = Watch::new(chain, windows);

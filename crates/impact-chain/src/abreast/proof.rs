@@ -14,7 +14,8 @@ pub const MARGIN: f64 = 1e-12;
 pub const SLOW: f64 = 1e-5;
 
 /// Returns more than the time, in units of 1/ω, by which a width that is off by [`MARGIN`] moves an
-/// impact at this speed. Adjacent impacts that are further apart than both of theirs are in order.
+/// impact at this speed. Adjacent impacts that are further apart than the sum of theirs are in
+/// certain order.
 #[inline(always)]
 pub fn blur(speed: f64) -> f64 {
     1.25 * MARGIN / speed
@@ -24,7 +25,8 @@ pub fn blur(speed: f64) -> f64 {
 /// given f and f' at the end, M₂, whether it is tame, whether it was hit, and the rate at which it
 /// opens then.
 ///
-/// It is above the line from zero at that rate, or a neighbour's tangent at the end, less M₂ s²/2.
+/// It is above the line from zero at that rate, or of a neighbour the tangent at the end, less M₂
+/// s²/2 if it is not tame.
 #[inline(always)]
 pub fn least_width<S: Simd>(
     simd: S,
@@ -114,7 +116,8 @@ impl Local {
         (free + self.ratio * forced) * (1.0 + 1e-12)
     }
 
-    /// Returns f'' at the middle, and a bound of its change within `half`: M₃ = R₁ + ρ³ R₂.
+    /// Returns f'' at the middle, and how far it is from that within `half`: M₃ = R₁ + ρ³ R₂, or
+    /// more.
     fn curvature(&self, half: f64) -> [f64; 2] {
         let square = self.ratio * self.ratio;
         let third =
@@ -151,7 +154,8 @@ impl Local {
         f0 + rate0 * half > sunk && f1 - rate1 * half > sunk
     }
 
-    /// Goes by steps without a root to the first root or the end, as f(t + s) ≥ f + f' s − M₂ s²/2.
+    /// Goes by steps without a root to the first root or the end, as
+    /// f(t + s) ≥ f + f' s − M₂ s²/2.
     fn step_to_root(&self, Part { start, end, just_hit, .. }: Part) -> Outcome {
         let bend = self.bend();
         let mut s = start;

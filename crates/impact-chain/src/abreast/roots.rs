@@ -92,7 +92,8 @@ impl Candidates {
     }
 }
 
-/// Terms of the Taylor polynomial about the middle of a step; the next is below 2e-16.
+/// Terms of the Taylor polynomial about the middle of a step; the next is below 2e-16 of the
+/// amplitudes at the ends.
 const TERMS: usize = 12;
 
 /// A correction of third order below this leaves less than rounding, if it is also so short that f'
@@ -162,7 +163,8 @@ fn rough<S: Simd>(p: &[f64x8<S>; TERMS], s: f64x8<S>) -> [f64x8<S>; 3] {
     [f, f1, f2]
 }
 
-/// Evaluates f and f' by all terms, the lowest last, and f'' by the first eight.
+/// Evaluates f and f' by all terms, the lowest last for the least rounding, and f'' by the first
+/// eight.
 #[inline(always)]
 fn full<S: Simd>(p: &[f64x8<S>; TERMS], s: f64x8<S>) -> [f64x8<S>; 3] {
     let s2 = s * s;

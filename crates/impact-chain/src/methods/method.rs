@@ -47,7 +47,8 @@ pub trait Method: Sealed + Sync {
     /// Returns the name, as in `trace --method`, e.g. "verlet".
     fn name(&self) -> &'static str;
 
-    /// Runs a task and hands each impact to `sink`, which stops the run there by returning false.
+    /// Runs a task and hands each impact to `sink`, which stops the run right after that impact by
+    /// returning false.
     ///
     /// A gap of the start that is shut up to rounding counts as shut; it is hit if it is closing.
     ///

@@ -13,7 +13,8 @@ use fearless_simd::Simd;
 /// their rates before and after.
 ///
 /// The matrix of that problem is tridiagonal for a row of masses; projected Gauss–Seidel solves
-/// it, lowest gap first. An impact is an episode of steps with P > 0, in the middle of the first.
+/// it, lowest gap first. An impact is an episode of steps with P > 0, counted in the middle of its
+/// first.
 ///
 /// - Source: Moreau (1988), CISM Courses 302, 1; Jean (1999), Comput. Methods Appl. Mech. Eng. 177,
 ///   235; Acary and Brogliato (2008), Lect. Notes Appl. Comput. Mech. 35, sec. 10.

@@ -8,7 +8,8 @@ use crate::Error;
 use fearless_simd::Simd;
 use std::f64::consts::PI;
 
-/// Penalty springs: a shut gap is a stiff spring with a damper for the restitution, by Verlet.
+/// Penalty springs: a shut gap is a stiff spring with a damper that is tuned to the restitution;
+/// velocity Verlet.
 ///
 /// Alone, an overlapped gap follows Δ'' + 2ζω_c Δ' + ω_c² Δ = 0 and comes back with r times
 /// its speed for ζ = −ln r/√(π² + ln² r). The stiffness follows from the step: half a

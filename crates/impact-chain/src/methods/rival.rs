@@ -1,4 +1,5 @@
-//! Runs the engine as a `Method`, and its rivals, which share all but their steps.
+//! Runs the engine as a `Method`, and its rivals, which share all but their steps: their work is
+//! counted and bounded.
 
 use super::method::{Cost, Method, Sealed, Task};
 use super::steps::{MAX_STEPS, Step, Steps, check_end, too_many_steps};
@@ -166,7 +167,8 @@ impl<'a> Tally<'a> {
         }
     }
 
-    /// Counts an impact if it has a speed; without one it is an event only, of a gap at rest.
+    /// Counts an impact if it has a speed; without one it is an event only, of a gap that rests at
+    /// zero.
     pub fn event(&mut self, k: usize, time: f64, speed: f64) -> Result<(), Stop> {
         if speed > 0.0 { self.impact(k, time, speed) } else { self.spend(k, time) }
     }

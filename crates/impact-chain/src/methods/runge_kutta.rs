@@ -11,7 +11,8 @@ use impact_numerics::roots::bracket;
 use std::mem::swap;
 
 /// The pair of Dormand and Prince with a tolerance; a gap that is negative at the end of a step is
-/// an event, bisected on the dense output; the earliest ends the step.
+/// an event, bisected on the dense output; the earliest ends the step, and integration starts
+/// again.
 ///
 /// The absolute tolerance is a thousandth of the relative one. The next step has 0.9 err^(−1/5)
 /// times the length of the last, from 1/5 to 5 times; after an event it is the length tried before.
@@ -91,7 +92,8 @@ impl Steps {
         Ok(())
     }
 
-    /// Returns the gap that closes first and its time in the step, or `None`.
+    /// Returns the gap that closes first and its time in the step, or `None` if no gap ends
+    /// negative.
     fn event(&self, h: f64, tally: &mut Tally) -> Option<(usize, f64)> {
         let (row, stages) = (&self.row, &self.stages);
         let gaps = row.topology.gaps();

@@ -209,7 +209,8 @@ impl Gaps {
         })
     }
 
-    /// Searches the rest of the step for the zero of gap k, given width and rate at `from`.
+    /// Searches the rest of the step for the zero of gap k; `start` is its width and rate at the
+    /// time `from`.
     fn locate(&mut self, k: usize, from: f64, start: [f64; 2], step: &Step, tally: &mut Tally) {
         tally.cost.evaluations += 2;
         let mut end = self.width_and_rate(k, step.phases);

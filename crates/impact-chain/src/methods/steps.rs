@@ -1,4 +1,5 @@
-//! Cuts time into equal steps, tabulates phases at their ends, and checks steps and tolerances.
+//! Cuts time into equal steps, tabulates phases at their ends, and checks the ranges of steps,
+//! tolerances and end times.
 
 use super::method::Task;
 use crate::error::{Error, check_range};

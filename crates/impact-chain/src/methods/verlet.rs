@@ -8,7 +8,8 @@ use crate::Error;
 use crate::impact::jumps;
 use fearless_simd::Simd;
 
-/// Velocity Verlet; at the end of a step each negative and closing gap, from the left, is hit.
+/// Velocity Verlet; at the end of a step each gap that is negative and closing, from the left, gets
+/// the impact law.
 ///
 /// - Source: Verlet (1967), Phys. Rev. 159, 98, in the form of Swope et al. (1982), J. Chem. Phys.
 ///   76, 637; the flip is common in simulations for pictures and games.

@@ -96,7 +96,8 @@ impl VerletAbreast {
             }
         }
         let start = State { time: 0.0, positions: Vec::new(), velocities: Vec::new() };
-        // The end lies half a step late, so that the last step is dropped and all others are whole.
+        // The end lies half a step late, so that the shortened last step is dropped and all others
+        // are whole.
         let end = ((until / h).ceil() + 0.5) * h;
         let task = Task { scenario: first_scenario, start: &start, until: end };
         let steps = Steps::new(task, h, vec![Rate::new(first_scenario.forcing_frequency)])?;

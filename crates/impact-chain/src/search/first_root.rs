@@ -87,7 +87,7 @@ impl<const M: usize> Search<M> {
     /// ≥ |f''|, f ≥ speed h − M₂ h²/2 at s − h, so there is no root within speed/M₂
     /// before s. Where that stretch begins (if it is before 0, nothing is left to show) f is at
     /// least speed²/2M₂. If that is more than f − q can be, then q is above zero there, hence
-    /// before it, and so is f. Twice as much is required, since both are rounded.
+    /// before it, and so is f. Twice as much is required, since s and its speed are rounded.
     #[inline(always)]
     fn is_first(&self, frame: &Frame<M>, speed: f64) -> bool {
         let bound = self.curvature * frame.bound;

@@ -45,7 +45,8 @@ impl<const M: usize> Nodes<M> {
         }
     }
 
-    /// Returns the root near `guess`, 0 ≤ `guess` ≤ reach, and −f' there, or `None`.
+    /// Returns the root near `guess`, 0 ≤ `guess` ≤ reach, and −f' there, or `None` if no root is
+    /// near.
     #[inline(always)]
     pub fn root(&self, frame: &Frame<M>, guess: f64, work: &mut Counters) -> Option<(f64, f64)> {
         let mut s = guess;

@@ -2,10 +2,10 @@
 //!
 //! On a piece [a, a + w] the function f is compared with the polynomial p of degree seven that
 //! shares its value and first three derivatives at both ends (Hermite). The difference is at most
-//! M₈ (s − a)⁴ (a + w − s)⁴ / 8!, a polynomial of degree eight with one Bernstein coefficient, so
-//! q, p minus the difference, is below f and its nine Bernstein coefficients bound it from below.
-//! They are linear in f₀, g₀, α, γ and δ, with factors by frequencies and piece alone, tabulated
-//! once.
+//! M₈ (s − a)⁴ (a + w − s)⁴ / 8!, a polynomial of degree eight with one Bernstein
+//! coefficient, so q, p minus the difference, is below f and its nine Bernstein coefficients bound
+//! it from below. They are linear in f₀, g₀, α, γ and δ, with factors by frequencies and
+//! piece alone, which are tabulated once.
 
 use super::linear::{Linear, Taylor};
 use super::local_frame::{Frame, Frequencies};
@@ -33,7 +33,8 @@ impl<const M: usize> Eighths<M> {
         Eighths { values, width }
     }
 
-    /// Guesses the root of a function that falls below zero once, by a secant over an eighth.
+    /// Guesses the root of a function that falls below zero once, by the secant over the eighth in
+    /// which it changes sign.
     #[inline(always)]
     pub fn guess(&self, frame: &Frame<M>) -> f64 {
         let row = self.values.evaluate(frame).map(|x| x + splat(frame.f0));
@@ -55,7 +56,8 @@ fn sign_bits(masks: CoefficientPairs) -> u32 {
     (a | b << 2) | (c << 4 | d << 6)
 }
 
-/// A part of the reach on which functions are bounded from below.
+/// A part of the reach on which functions are bounded from below, with the factors of its
+/// coefficients.
 #[derive(Clone, Copy, Debug)]
 pub struct Piece<const M: usize> {
     /// a, where the piece begins.
@@ -77,7 +79,8 @@ pub struct Coefficients {
     slack: f64,
 }
 
-/// Returns C(i, k) k! (8 − k)!/8! wᵏ: the factor of Taylor's k-th in Bernstein's i-th coefficient.
+/// Returns C(i, k) k! (8 − k)!/8! wᵏ: the factor of the k-th Taylor coefficient in the i-th
+/// Bernstein coefficient.
 fn weight(i: usize, k: usize, w: f64) -> f64 {
     (0..k).fold(1.0, |product, m| product * ((i - m) as f64 * w / (N - m) as f64))
 }

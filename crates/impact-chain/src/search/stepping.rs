@@ -99,7 +99,8 @@ fn stays_open<const M: usize>(a: &Point<M>, b: &Point<M>, h: f64, bound6: f64, s
     coefficients.iter().all(|&c| c > slack)
 }
 
-/// Returns order and value of the first of f'', f''', f'''' above `times` its rounding.
+/// Returns order and value of the first of f'', f''', f'''' above `times` its rounding, or
+/// `None` if all are below.
 fn leading<const M: usize>(
     p: &Point<M>,
     times: f64,
@@ -259,7 +260,8 @@ pub fn first_root_by_steps<const M: usize>(
 /// Widths above this fraction of the size of a frame are no part of a dip that rounding hides.
 pub const SHALLOW: f64 = 1e-6;
 
-/// Returns the dip of a frame from the motions that rounding hides, and a time after it.
+/// Returns the dip of a frame from the motions that rounding hides and a time after it, or `None`
+/// if there is no such dip.
 #[cold]
 pub fn hidden_dip<const M: usize>(
     frame: &Frame<M>,

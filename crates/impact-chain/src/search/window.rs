@@ -18,8 +18,8 @@ const WIDENED: f64 = 1e-7;
 
 const HOPS: u32 = 64;
 
-/// Returns a time s ≥ 0 before which `mean` + Σ R cos(νs + θ) > 0 is certain, or `None` if it
-/// always is.
+/// Returns a time s ≥ 0 before which `mean` + Σ R cos(νs + θ) > 0 is certain, or `None` if it is
+/// certain at all times.
 ///
 /// The part with amplitude R is low enough only while R cos(νs + θ) ≤ −(mean − Σ of the
 /// other amplitudes): in one window a period. Before s no instant lies in the windows of all parts.
