@@ -20,8 +20,7 @@ pub fn mean(sample: &[f64]) -> Option<f64> {
     (!sample.is_empty()).then(|| sample.iter().sum::<f64>() / sample.len() as f64)
 }
 
-/// Returns the standard deviation with n − 1 degrees of freedom, or `None` below two
-/// values.
+/// Returns the standard deviation with n − 1 degrees of freedom, or `None` below two values.
 pub fn standard_deviation(sample: &[f64]) -> Option<f64> {
     let centre = mean(sample)?;
     let squares: f64 = sample.iter().map(|x| (x - centre) * (x - centre)).sum();

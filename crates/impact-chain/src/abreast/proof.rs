@@ -154,8 +154,7 @@ impl Local {
         f0 + rate0 * half > sunk && f1 - rate1 * half > sunk
     }
 
-    /// Goes by steps without a root to the first root or the end, as
-    /// f(t + s) ≥ f + f' s − M₂ s²/2.
+    /// Goes by steps without a root to the first root or the end, as f(t + s) ≥ f + f' s − M₂ s²/2.
     fn step_to_root(&self, Part { start, end, just_hit, .. }: Part) -> Outcome {
         let bend = self.bend();
         let mut s = start;
