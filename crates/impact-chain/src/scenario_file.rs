@@ -145,7 +145,6 @@ impl Serialize for Scenario {
     }
 }
 
-
 fn read_file(text: &str) -> Result<ScenarioFile, Error> {
     // Fields have names: an array is not taken for them by position.
     let value: Value = serde_json::from_str(text).unwrap_or_default();
