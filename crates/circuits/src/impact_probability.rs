@@ -88,8 +88,8 @@ fn saturation(x: f64) -> f64 {
 }
 
 /// Creates the error of a positive quantity that is below the range of doubles at a σ.
-fn underflow(what: &str, sigma: f64, remedy: &str) -> Error {
-    let problem = format!("{what} is below the range of double precision at σ = {sigma:e}");
+fn underflow(quantity: &str, sigma: f64, remedy: &str) -> Error {
+    let problem = format!("{quantity} is below the range of double precision at σ = {sigma:e}");
     Error::input("sigma", problem, remedy)
 }
 

@@ -53,7 +53,6 @@ use std::f64::consts::TAU;
 /// M_T(θ) at equally spaced angles θ from 0, in units of length per unit of amplitude of the force.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reach {
-    /// M_T at each angle.
     pub radii: Vec<f64>,
 }
 
@@ -100,7 +99,8 @@ impl Reach {
                 let (from, until) = (i as f64 * step, (i + 1) as f64 * step);
                 let after = curve(chain, until);
                 for (radius, direction) in radii.iter_mut().zip(&directions) {
-                    let [rises, falls] = [&before, &after].map(|at| dot(at.slope, *direction));
+                    let [rises, falls] =
+                        [&before, &after].map(|point| dot(point.slope, *direction));
                     *radius = radius.max(dot(after.value, *direction));
                     // Between a rise and a fall the values stay below both tangents.
                     let upper_bound = dot(before.value, *direction) + rises * step;

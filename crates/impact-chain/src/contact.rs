@@ -14,16 +14,15 @@
 //! each gap of a cluster is hit once.
 
 use super::complementarity::contact_forces;
-use super::event::Event;
 use super::flight::{Motion, Phases};
 use super::force::Force;
 use super::simulation::{Awaits, Simulation, Waiting};
+use crate::Event;
 use crate::search::clock::Instant;
 use crate::search::local_frame::ROUNDING;
 use crate::search::outcome::Next;
 use crate::search::window::next_window;
 use std::collections::BTreeMap;
-use std::collections::btree_map::Entry;
 use std::iter::successors;
 use std::mem::take;
 
@@ -70,22 +69,21 @@ impl<const M: usize> Simulation<M> {
             self.joined = (self.now, Vec::new());
         }
         let jumps = self.kick_neighbours(k, speed, phases);
+        let has_joined = |near: usize| inelastic && self.joined.1.contains(&near);
         let mut changed = BTreeMap::new();
         for near in freed {
             let rate = self.jump_of_gap(near, k, jumps);
-            let joined = inelastic && self.joined.1.contains(&near);
-            let is_settled = joined || self.is_settled(0.0, rate);
+            let is_settled = has_joined(near) || self.is_settled(0.0, rate);
             changed.insert(near, Changed { width: 0.0, rate, is_settled });
         }
         changed.insert(k, Changed { width: 0.0, rate, is_settled: self.is_settled(0.0, rate) });
         for near in self.topology.near(k) {
-            if let Entry::Vacant(place) = changed.entry(near) {
+            changed.entry(near).or_insert_with(|| {
                 let jump = self.jump_of_gap(near, k, jumps);
                 let mut gap = self.changed(near, phases, jump);
-                let joined = inelastic && self.joined.1.contains(&near);
-                gap.is_settled |= joined && self.is_settled(gap.width, gap.rate - jump);
-                place.insert(gap);
-            }
+                gap.is_settled |= has_joined(near) && self.is_settled(gap.width, gap.rate - jump);
+                gap
+            });
         }
         if inelastic {
             self.joined.1.push(k);
@@ -182,16 +180,14 @@ impl<const M: usize> Simulation<M> {
         let (mut freed, stuck) = (take(&mut self.freed), take(&mut self.stuck));
         freed.retain(|&k| !self.gaps[k].in_contact);
         let (instant, time) = (self.now, self.time(self.now));
-        let [freed, stuck] = [freed, stuck].map(|mut gaps| {
+        for (mut gaps, is_stuck) in [(freed, false), (stuck, true)] {
+            if gaps.is_empty() {
+                continue;
+            }
             gaps.sort_unstable();
-            gaps.iter().map(|&k| self.topology.label(k)).collect::<Vec<usize>>()
-        });
-        if !freed.is_empty() {
-            let event = Event::Release { time, gaps: freed };
-            self.waiting.push(Waiting { instant, dip: None, event });
-        }
-        if !stuck.is_empty() {
-            let event = Event::Stick { time, gaps: stuck };
+            let gaps = gaps.into_iter().map(|k| self.topology.label(k)).collect();
+            let event =
+                if is_stuck { Event::Stick { time, gaps } } else { Event::Release { time, gaps } };
             self.waiting.push(Waiting { instant, dip: None, event });
         }
     }
@@ -338,8 +334,9 @@ impl<const M: usize> Simulation<M> {
                 u += common[0] - alone[0];
                 quadrature += ratio * (common[1] - alone[1]);
             }
-            self.motions[m] = alone;
-            self.motions[m].set_free(u, quadrature, p);
+            let a = u * p.cos - quadrature * p.sin;
+            let b = u * p.sin + quadrature * p.cos;
+            self.motions[m] = Motion { a, b, ..alone };
         }
     }
 

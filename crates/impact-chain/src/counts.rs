@@ -5,8 +5,6 @@
 use crate::search::outcome::Graze;
 use crate::topology::Topology;
 use crate::{Chain, End, Engine, Error, Event, Impact, LATEST, check_range};
-#[cfg(feature = "serde")]
-use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow::{Break, Continue};
 
 /// The δ below which impacts of adjacent gaps are counted as close, whatever ω is.
@@ -20,7 +18,7 @@ const CHECK_EVERY: u64 = 4096;
 
 /// The window (T, T + W] in which gaps with an impact are counted (ours: Sec. 2 has none).
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", derive(serde::Deserialize, serde::Serialize))]
 pub struct Protocol {
     /// Transient T that is dropped, in the scenario's unit of time.
     pub transient: f64,
@@ -36,7 +34,6 @@ impl Default for Protocol {
 
 impl Protocol {
     /// Returns the end of the window, T + W.
-    #[must_use]
     pub fn end(&self) -> f64 {
         self.transient + self.window
     }
@@ -44,7 +41,7 @@ impl Protocol {
 
 /// Counts of realisations in order, for each window; those that follow one another can be joined.
 #[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", derive(serde::Deserialize, serde::Serialize))]
 pub struct Counts {
     /// Different gaps with an impact, by window and realisation, or `None` if the run ended before
     /// the window.
@@ -65,7 +62,7 @@ pub struct Counts {
 
 /// Impacts of whole runs, transients included.
 #[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", derive(serde::Deserialize, serde::Serialize))]
 pub struct Total {
     /// Their number.
     pub impacts: u64,
@@ -149,7 +146,6 @@ fn rising(times: impl Iterator<Item = f64>) -> Vec<f64> {
 
 impl Watch {
     /// Creates the counts of a run of this chain, all of them zero.
-    #[must_use]
     pub fn new(chain: &Chain, windows: &[Protocol]) -> Self {
         let gaps = chain.gaps();
         let transients = rising(windows.iter().map(|window| window.transient));
@@ -291,7 +287,6 @@ impl Watch {
     }
 
     /// Returns which gaps had an impact in one of the windows, or `None` for another window.
-    #[must_use]
     pub fn gaps_hit(&self, window: &Protocol) -> Option<Vec<bool>> {
         self.windows.iter().find(|one| *one == window)?;
         let transient = self.transients.partition_point(|time| *time < window.transient);
@@ -308,7 +303,7 @@ fn masses_hit(topology: &Topology, hit: &[bool]) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Boundary, NormalPairs, Scenario, Seed};
+    use crate::Boundary;
 
     /// Gaps 0 and 4 of four masses are at walls; on a ring of five, gap 0 joins the last and first.
     #[test]
@@ -323,35 +318,6 @@ mod tests {
         ] {
             let both = [Topology::new(4, Boundary::Walls), Topology::new(5, Boundary::Ring)];
             assert_eq!(both.map(|topology| masses_hit(&topology, &hit)), [row, ring], "{hit:?}");
-        }
-    }
-
-    /// A second run counts as a new watch does; another chain, or no time as an end, is refused.
-    #[test]
-    fn a_run_is_counted_alone_and_for_its_own_chain() {
-        let chain = Chain { masses: 3, ..Chain::default() };
-        let engine = |chain: &Chain, index| {
-            Engine::new(&Scenario::draw(chain, 0.4, &mut NormalPairs::new("watch", Seed(1), index)))
-        };
-        let [window, other] = [5.0, 6.0].map(|transient| Protocol { transient, window: 20.0 });
-        let windows = [window, Protocol { transient: 9.0, window: 1.0 }];
-        let mut watch = Watch::new(&chain, &windows);
-        let mut counted = |index| watch.run(engine(&chain, index), index, 50.0, &|| false).unwrap();
-        let (first, second) = (counted(0), counted(1));
-        let alone =
-            Watch::new(&chain, &windows).run(engine(&chain, 1), 1, 50.0, &|| false).unwrap();
-        assert!(second == alone && first.impacts != second.impacts, "{second:?}, {alone:?}");
-        assert!(watch.gaps_hit(&window).is_some() && watch.gaps_hit(&other).is_none());
-        let ring = Chain { boundary: Boundary::Ring, masses: 4, ..chain.clone() };
-        for another in [Chain { masses: 2, ..chain.clone() }, ring] {
-            let refused = watch.run(engine(&another, 0), 0, 50.0, &|| false).unwrap_err();
-            assert!(refused.to_string().starts_with("engine: "), "{refused}");
-        }
-        assert!(watch.run(engine(&chain, 0), 0, f64::NAN, &|| false).is_err());
-        for length in [f64::NAN, f64::INFINITY, LATEST] {
-            let late = [Protocol { transient: 1.0, window: length }];
-            let ran = Watch::new(&chain, &late).run(engine(&chain, 0), 0, 50.0, &|| false);
-            assert!(ran.unwrap_err().to_string().starts_with("windows: "), "{length}");
         }
     }
 

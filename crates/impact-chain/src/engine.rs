@@ -11,7 +11,7 @@ use std::ops::ControlFlow::{self, Break, Continue};
 /// The simulation of one scenario, from event to event.
 ///
 /// A run ends at a time `until`, or earlier; the next call goes on from there. An event whose time
-/// is `until` is within the run.
+/// is `until` is within the run. All that run have the errors of [`run`](Engine::run).
 #[derive(Clone, Debug)]
 pub struct Engine(Components);
 
@@ -64,9 +64,6 @@ impl Engine {
     }
 
     /// Returns the further impacts up to time `until`, in order.
-    ///
-    /// # Errors
-    /// Those of [`run`](Engine::run).
     pub fn impacts(&mut self, until: f64) -> Result<Vec<Impact>, Error> {
         let mut impacts = Vec::new();
         self.observe(until, &mut |event, _| {
@@ -80,9 +77,6 @@ impl Engine {
 
     /// Returns the next impact up to time `until`, or `None` if there is no impact; the run stops
     /// right after it.
-    ///
-    /// # Errors
-    /// Those of [`run`](Engine::run).
     pub fn next_impact(&mut self, until: f64) -> Result<Option<Impact>, Error> {
         let mut next = None;
         self.observe(until, &mut |event, _| match event {
@@ -96,9 +90,6 @@ impl Engine {
     }
 
     /// Runs until time `until`; [`state`](Engine::state) then tells where the masses are.
-    ///
-    /// # Errors
-    /// Those of [`run`](Engine::run).
     pub fn advance(&mut self, until: f64) -> Result<(), Error> {
         self.observe(until, &mut |_, _| Continue(())).map(drop)
     }
@@ -135,9 +126,6 @@ impl Engine {
 
     /// Returns the time of the next event up to `until`, or `None` if there is no event, without
     /// going there. A gap that then closes without speed may leave no event.
-    ///
-    /// # Errors
-    /// Those of [`run`](Engine::run).
     pub fn next_event_time(&mut self, until: f64) -> Result<Option<f64>, Error> {
         call!(&mut self.0, simulation => simulation.next_time(simulation.end(until)?))
     }
@@ -159,21 +147,16 @@ impl Engine {
 
     /// Returns the free parts (a_j, b_j) of the masses 1..n, from the time of the start on; a
     /// cluster shares one.
-    #[must_use]
     pub fn free_parts(&self) -> Vec<[f64; 2]> {
         call!(&self.0, simulation => simulation.free_parts())
     }
 
     /// Returns the gaps in contact and their contact forces (≥ 0) at a time up to the next event.
-    ///
-    /// # Errors
-    /// Those of [`state`](Engine::state).
     pub fn contacts(&self, time: f64) -> Result<Vec<(usize, f64)>, Error> {
         call!(&self.0, simulation => simulation.contacts(time))
     }
 
     /// Returns the time of the last event; before the first, that of the start.
-    #[must_use]
     pub fn time(&self) -> f64 {
         call!(&self.0, simulation => simulation.event_time)
     }
@@ -184,80 +167,7 @@ impl Engine {
     }
 
     /// Returns the first dip of which rounding could not tell whether it is an impact, or `None`.
-    #[must_use]
     pub fn first_graze(&self) -> Option<Graze> {
         call!(&self.0, simulation => simulation.first_graze)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::{Chain, Initial, LATEST, NormalPairs, Seed};
-
-    /// An unforced elastic chain that starts with these free parts.
-    fn free(parts: &[[f64; 2]]) -> Scenario {
-        let chain = Chain { masses: parts.len(), forcing_frequency: 0.5, ..Chain::default() };
-        let initial = Initial::Free(parts.to_vec());
-        let scenario = Scenario::given(&chain, vec![[0.0; 2]; parts.len()]).unwrap();
-        Scenario { initial, restitution: 1.0, ..scenario }
-    }
-
-    /// The end of a run is a time of the clock, also where no gap can ever close.
-    #[test]
-    fn an_end_that_is_no_time_is_refused() {
-        let mut engine = Engine::new(&free(&[[0.1, 0.0]])).unwrap();
-        for until in [f64::INFINITY, f64::NAN, 1e15, LATEST.next_up(), f64::NEG_INFINITY] {
-            let refused = engine.next_impact(until).unwrap_err().to_string();
-            assert!(refused.starts_with("until: "), "{refused}");
-        }
-        assert!(engine.state(LATEST).is_ok() && engine.state(LATEST.next_up()).is_err());
-        assert_eq!(engine.impacts(LATEST), Ok(vec![]));
-        let mut engine = Engine::new(&free(&[[1.0, 1.5]])).unwrap();
-        let time = engine.next_impact(9.0).unwrap().unwrap().time;
-        assert!(engine.advance(time.next_down()).is_err() && engine.advance(time).is_ok());
-    }
-
-    #[test]
-    fn an_impact_is_within_a_run_until_its_time() {
-        let scenario =
-            Scenario::draw(&Chain::default(), 0.3, &mut NormalPairs::new("end", Seed(1), 0));
-        let mut engine = Engine::new(&scenario).unwrap();
-        for number in 0..200 {
-            let before = engine.clone();
-            let hit = engine.next_impact(50.0).unwrap().unwrap();
-            assert_eq!(before.clone().next_impact(hit.time), Ok(Some(hit)), "{number}");
-            assert_eq!(before.clone().next_impact(hit.time.next_down()), Ok(None), "{number}");
-        }
-    }
-
-    /// Two gaps that close at the start are simultaneous, and both are counted; one is alone.
-    #[test]
-    fn impacts_at_the_start_are_simultaneous_with_impacts_alone() {
-        let starts: [(&[[f64; 2]], u64, u64); 4] = [
-            (&[[1.0, 1.5]], 1, 0),
-            (&[[-1.0, 0.0], [-2.0, -0.5]], 3, 2),
-            (&[[-1.0, -0.5], [-2.0, -1.5]], 4, 4),
-            (&[[-1.0, -0.5], [1.0, 0.5]], 2, 0),
-        ];
-        for (parts, impacts, ties) in starts {
-            let mut engine = Engine::new(&free(parts)).unwrap();
-            engine.advance(0.0).unwrap();
-            let counters = engine.counters();
-            assert_eq!((counters.impacts, counters.simultaneous), (impacts, ties), "{parts:?}");
-        }
-    }
-
-    /// Mass 2 hits mass 1, whose gap waits without a search 1e-10 before the wall: no past frame.
-    #[test]
-    fn a_gap_that_waits_long_is_where_its_masses_are() {
-        let (amplitude, phase) = (1.0 - 1e-10, 1.0_f64);
-        let parts = [amplitude, 2.0].map(|r| [-r * phase.cos(), -r * phase.sin()]);
-        let hits = Engine::new(&free(&parts)).unwrap().impacts(1.1).unwrap();
-        let [first, second] = [hits[0], hits[1]];
-        assert_eq!([first.gap, second.gap], [1, 0], "{hits:?}");
-        // At 2e-10 it takes the speed of mass 2, v² = 8e-10, and loses 2 · 2e-10 to the spring.
-        assert!((second.closing_speed - 2e-5).abs() < 1e-9, "{hits:?}");
-        assert!((second.time - first.time - (8.0f64.sqrt() - 2.0) * 1e-5).abs() < 1e-9);
     }
 }

@@ -35,18 +35,6 @@ pub enum Error {
     },
 }
 
-/// The kinds of [`Error`], without what they tell.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum ErrorKind {
-    /// A value that the model does not allow.
-    Input,
-    /// Masses in reversed order at the start.
-    Overlap,
-    /// More events than a run may have.
-    Work,
-}
-
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -68,18 +56,7 @@ impl fmt::Display for Error {
 impl std::error::Error for Error {}
 
 impl Error {
-    /// Returns the kind of the error.
-    #[must_use]
-    pub fn kind(&self) -> ErrorKind {
-        match self {
-            Error::Input { .. } => ErrorKind::Input,
-            Error::Overlap { .. } => ErrorKind::Overlap,
-            Error::Work { .. } => ErrorKind::Work,
-        }
-    }
-
     /// Returns the name of the field or argument that is refused, or `None` if a run was ended.
-    #[must_use]
     pub fn field(&self) -> Option<&str> {
         match self {
             Error::Input { field, .. } | Error::Overlap { field, .. } => Some(field),

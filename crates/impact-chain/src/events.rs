@@ -250,7 +250,10 @@ impl<const M: usize> Simulation<M> {
                 self.collide_in_contact(k, 0.0, &phases);
             }
             Awaits::Impact(speed) => {
-                let impact = self.count_impact(k, speed)?;
+                self.spend(k)?;
+                self.work.impacts += 1;
+                let (time, gap) = (self.time(self.now), self.topology.label(k));
+                let impact = Impact { time, gap, closing_speed: speed };
                 let phases = Phases::at(&self.search.frequencies, self.now);
                 if is_close | (self.gaps[k].origin == self.now) {
                     self.count_tie(k);
@@ -327,14 +330,6 @@ impl<const M: usize> Simulation<M> {
                 return;
             }
         }
-    }
-
-    /// Counts the impact of gap k now, and takes it from the budget.
-    #[inline(always)]
-    fn count_impact(&mut self, k: usize, closing_speed: f64) -> Result<Impact, Error> {
-        self.spend(k)?;
-        self.work.impacts += 1;
-        Ok(Impact { time: self.time(self.now), gap: self.topology.label(k), closing_speed })
     }
 
     /// Takes one event of gap k from the budget of the current unit of time.

@@ -9,6 +9,10 @@ pub fn response(w: f64, big_w: f64, amplitudes: [f64; 2]) -> [f64; 2] {
     amplitudes.map(|amplitude| amplitude / factor)
 }
 
+pub fn length([x, y]: [f64; 2]) -> f64 {
+    (x * x + y * y).sqrt()
+}
+
 /// Sine and cosine of the phases ωt and Ωt of each component of the forcing at one instant.
 #[derive(Clone, Copy, Debug)]
 pub struct Phases<const M: usize> {
@@ -41,9 +45,7 @@ impl<const M: usize> Phases<M> {
 /// The whole state is the free part (a, b), which only impacts of this mass change.
 #[derive(Clone, Copy, Debug)]
 pub struct Motion<const M: usize> {
-    /// a, free part along cos ωt.
     pub a: f64,
-    /// b, free part along sin ωt.
     pub b: f64,
     /// Forced responses: c = α/(ω² − Ω²) along cos Ωt, s = β/(ω² − Ω²) along sin Ωt.
     pub forced: [[f64; 2]; M],
@@ -85,13 +87,6 @@ impl<const M: usize> Motion<M> {
             u_quadrature: self.b * p.cos - self.a * p.sin,
             forced: p.evaluate(&self.forced),
         }
-    }
-
-    /// Sets the free part to one that has this value and quadrature now.
-    #[inline(always)]
-    pub fn set_free(&mut self, u: f64, u_quadrature: f64, p: &Phases<M>) {
-        self.a = u * p.cos - u_quadrature * p.sin;
-        self.b = u * p.sin + u_quadrature * p.cos;
     }
 
     // listing: kick
@@ -143,7 +138,6 @@ impl<const M: usize> Motion<M> {
 pub const INFLATION: f64 = 1.0 + 1e-12;
 
 impl<const M: usize> Parts<M> {
-    /// Adds up the distance from the centre of motion.
     #[inline(always)]
     pub fn displacement(&self) -> f64 {
         self.forced.iter().fold(self.u, |sum, part| sum + part[0])

@@ -1,7 +1,6 @@
-//! Defines an impact, the receivers of impacts, and the impact law.
+//! Defines the events of a run, the receivers of impacts, and the impact law.
 
-#[cfg(feature = "methods")]
-use crate::Error;
+use crate::search::outcome::Graze;
 
 /// The impact of two neighbours, or of a mass and a wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,23 +14,54 @@ pub struct Impact {
     pub closing_speed: f64,
 }
 
+/// What happens to the gaps of a chain, in the order of time; gaps are numbered as in [`Impact`].
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "lowercase"))]
+#[non_exhaustive]
+pub enum Event {
+    /// A gap closed, and its neighbours parted at once.
+    Impact(Impact),
+    /// Gaps are shut and pressed from now on, as a chattering or a slow impact ended, or at the
+    /// start.
+    Stick {
+        /// Time t, in the units of the scenario.
+        time: f64,
+        /// The gaps that were not pressed before, rising.
+        gaps: Vec<usize>,
+    },
+    /// Gaps in contact are pressed no longer, as their contact force vanished or a mass was hit.
+    Release {
+        /// Time t, in the units of the scenario.
+        time: f64,
+        /// The gaps that were pressed before, rising.
+        gaps: Vec<usize>,
+    },
+    /// A dip of which rounding cannot tell whether it reaches zero was taken for a miss.
+    Graze(Graze),
+}
+
+impl Event {
+    /// Returns the time of the event, in the units of the scenario.
+    pub fn time(&self) -> f64 {
+        match self {
+            Event::Impact(Impact { time, .. }) | Event::Graze(Graze { time, .. }) => *time,
+            Event::Stick { time, .. } | Event::Release { time, .. } => *time,
+        }
+    }
+}
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    /// At its time: there is no further event up to then.
+    Reached,
+    /// Right after an event, as the observer asked for.
+    Stopped,
+}
+
 /// Receives the impacts of a run in order; returns false to stop it.
 #[cfg(feature = "methods")]
 pub type Sink<'a> = &'a mut dyn FnMut(Impact) -> bool;
-
-/// Collects the first `most` impacts of a run, or all if there are fewer.
-#[cfg(feature = "methods")]
-pub fn collect_impacts<T>(
-    most: usize,
-    run: impl FnOnce(Sink) -> Result<T, Error>,
-) -> Result<Vec<Impact>, Error> {
-    let mut impacts = Vec::new();
-    run(&mut |impact| {
-        impacts.push(impact);
-        impacts.len() < most
-    })?;
-    Ok(impacts)
-}
 
 // listing: jumps
 /// Returns the jumps of velocity (left, right) of two neighbours whose gap closes at `speed` ≥ 0.

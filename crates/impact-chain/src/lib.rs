@@ -38,18 +38,14 @@ pub mod counts;
 mod elastic;
 mod engine;
 mod error;
-mod event;
 mod events;
 mod flight;
 mod force;
-mod forcing;
 mod impact;
 #[cfg(feature = "methods")]
 pub mod methods;
 #[cfg(feature = "ensembles")]
 pub mod mode_jump;
-#[cfg(feature = "ensembles")]
-mod resampling;
 #[cfg(feature = "ensembles")]
 pub mod rise;
 pub mod rounding;
@@ -70,13 +66,12 @@ pub use chain::{Boundary, Chain, Start};
 #[cfg(feature = "ensembles")]
 pub use counts::{Counts, Protocol, Watch};
 pub use engine::Engine;
-pub use error::{Error, ErrorKind, check_range};
-pub use event::{End, Event};
+pub use error::{Error, check_range};
 #[cfg(any(feature = "ensembles", feature = "methods"))]
 pub use impact::HitGaps;
-pub use impact::Impact;
 #[cfg(feature = "methods")]
 pub use impact::Sink;
+pub use impact::{End, Event, Impact};
 #[cfg(feature = "random")]
 pub use impact_numerics::random::{NormalPairs, Seed};
 #[cfg(feature = "ensembles")]

@@ -11,14 +11,11 @@
 use impact_numerics::bootstrap;
 use impact_numerics::estimates::LEVEL;
 use impact_numerics::statistics::Estimate;
-#[cfg(feature = "serde")]
-use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
 
 const RESAMPLES: u64 = 400;
 
 /// Which numbers compete: one at an end, the bulk at least N/10 from it, and those between.
-#[derive(Clone, Debug)]
 struct Parts {
     end: usize,
     between: RangeInclusive<usize>,
@@ -41,7 +38,7 @@ impl Parts {
 
 /// Shares of chains at one σ: at the end, in the peak of the bulk, and in the likeliest between.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", derive(serde::Deserialize, serde::Serialize))]
 pub struct Heights {
     /// Standard deviation σ of the amplitudes.
     pub sigma: f64,
@@ -102,7 +99,6 @@ impl Heights {
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Crossing {
     sigma: f64,
-    /// Number of gaps at the peak of the bulk there.
     peak: f64,
     /// Height there less that of the likeliest number between, over the height.
     clearance: f64,
@@ -194,7 +190,7 @@ impl Sample<'_> {
 /// Where the most likely count passes from one part to another, with bootstrap errors, each `None`
 /// where the sample shows none; where the mode surely climbs there is a clearance only.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", derive(serde::Deserialize, serde::Serialize))]
 pub struct Passing {
     /// The σ at which both are equally likely.
     pub sigma: Option<Estimate>,
@@ -219,7 +215,6 @@ impl Passing {
 
     /// Returns whether the mode surely jumps (true) or surely climbs (false), or `None` if neither
     /// is sure.
-    #[must_use]
     pub fn is_jump(&self) -> Option<bool> {
         let [low, high] = self.clearance?.interval;
         (low > 0.0 || high < 0.0).then_some(low > 0.0)
@@ -228,7 +223,7 @@ impl Passing {
 
 /// The most likely count in one window, against σ.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", derive(serde::Deserialize, serde::Serialize))]
 pub struct ModeJump {
     /// For each σ the shares of all gaps, of the bulk and of the numbers between.
     pub rows: Vec<Heights>,
@@ -250,7 +245,6 @@ pub struct Histogram {
 }
 
 /// Measures the jump in samples at rising σ.
-#[must_use]
 pub fn mode_jump(samples: &[Sample<'_>], histogram: Histogram) -> ModeJump {
     let Histogram { gaps, half_width } = histogram;
     let read = |halves: &dyn Fn(&Sample<'_>) -> [Vec<u32>; 2]| {

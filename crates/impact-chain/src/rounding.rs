@@ -10,7 +10,7 @@
 //! over |ω² − Ω²|, however slowly the motion grows.
 
 use super::Scenario;
-use super::flight::response;
+use super::flight::{length, response};
 
 /// The largest E = C ε S that a scenario may have, as a part of d.
 pub const LARGEST: f64 = 1e-6;
@@ -23,12 +23,8 @@ pub const REPORTED: f64 = 1e-9;
 pub const TIME: f64 = 66.3;
 
 /// Returns E = C ε S at the start, with a bound of S over all gaps: rounding may change the width
-/// of a gap by E, and the time of an impact at closing speed v by E/v.
-///
-/// # Panics
-/// Panics if a list of the scenario is shorter than its number of masses asks for.
-/// [`Scenario::validate`] refuses these.
-#[must_use]
+/// of a gap by E, and the time of an impact at closing speed v by E/v. Panics if a list of the
+/// scenario is shorter than its number of masses asks for. [`Scenario::validate`] refuses these.
 pub fn gap_error(scenario: &Scenario) -> f64 {
     let amplitudes = (0..scenario.forcing.len()).map(|j| amplitude(scenario, j));
     let largest = amplitudes.fold(0.0, f64::max);
@@ -51,10 +47,6 @@ fn amplitude(scenario: &Scenario, j: usize) -> f64 {
         sum += length(response(w, big_w, amplitudes[j]));
     }
     sum + length(scenario.free_part(j))
-}
-
-fn length([a, b]: [f64; 2]) -> f64 {
-    (a * a + b * b).sqrt()
 }
 
 #[cfg(test)]

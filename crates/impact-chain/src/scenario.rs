@@ -106,11 +106,21 @@ impl Scenario {
         }
     }
 
+    /// Returns its chain, with the start left out: places and overtones have no part in it.
+    pub fn chain(&self) -> Chain {
+        Chain {
+            masses: self.forcing.len(),
+            spacing: self.spacing,
+            natural_frequency: self.natural_frequency,
+            forcing_frequency: self.forcing_frequency,
+            restitution: self.restitution,
+            boundary: self.boundary,
+            ..Chain::default()
+        }
+    }
+
     /// Returns the place of equilibrium of body m: a mass, or a wall (0 or n + 1).
-    ///
-    /// # Panics
     /// Panics if `places` has no place of this body.
-    #[must_use]
     pub fn place(&self, m: usize) -> f64 {
         self.places.as_ref().map_or(m as f64 * self.spacing, |places| places[m])
     }
@@ -138,7 +148,6 @@ impl Scenario {
         std::iter::once((self.forcing_frequency, self.forcing.as_slice())).chain(further)
     }
 
-    /// Returns the largest of all frequencies.
     #[cfg(feature = "methods")]
     pub(crate) fn fastest(&self) -> f64 {
         self.components().fold(self.natural_frequency, |fastest, (big_w, _)| fastest.max(big_w))
@@ -157,8 +166,24 @@ impl Scenario {
     }
 
     /// Returns the number of gaps, N.
-    #[must_use]
     pub fn gaps(&self) -> usize {
         self.boundary.gaps(self.forcing.len())
+    }
+
+    /// Returns the amplitudes of cos ωt, sin ωt, cos Ωt and sin Ωt of each gap, in units of d.
+    #[cfg(any(feature = "ensembles", feature = "methods"))]
+    pub(crate) fn gap_amplitudes(&self) -> Vec<[f64; 4]> {
+        let topology = crate::topology::Topology::new(self.forcing.len(), self.boundary);
+        let mut bodies = vec![[0.0; 4]; self.forcing.len() + 2];
+        for (j, forces) in self.forcing.iter().enumerate() {
+            let [a, b] = self.free_part(j);
+            let [c, d] = response(self.natural_frequency, self.forcing_frequency, *forces);
+            bodies[j + 1] = [a, b, c, d];
+        }
+        let gap = |gap| {
+            let [left, right] = topology.sides(gap).map(|body| bodies[body]);
+            std::array::from_fn(|i| (right[i] - left[i]) / self.spacing)
+        };
+        (0..topology.gaps()).map(gap).collect()
     }
 }

@@ -5,8 +5,7 @@ use crate::scenario::{COMPONENTS, Initial, Overtone, Scenario, draw_pairs};
 use crate::state::State;
 use crate::{Boundary, Chain, Engine};
 use impact_numerics::random::{NormalPairs, Seed};
-use serde::de::Error as _;
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde::{Deserialize, Serialize, Serializer};
 use serde_json::Value;
 
 /// One component: a pair for each mass.
@@ -99,18 +98,20 @@ impl Scenario {
 
     /// Reads a scenario as [`Scenario::from_json`] does, whether the engine can run it or not.
     pub fn parse_json(text: &str) -> Result<Scenario, Error> {
-        parse(text)?.into_scenario()
+        read_file(text)?.into_scenario()
     }
 
     /// Writes the scenario as JSON in one line, from which [`Scenario::from_json`] reads the same,
     /// without the places of the walls on a ring. One that [`Scenario::validate`] refuses is not
     /// read again, or as another.
-    #[must_use]
     pub fn to_json(&self) -> String {
         serde_json::to_string(self).unwrap_or_default()
     }
+}
 
-    fn to_file(&self) -> ScenarioFile {
+/// In the form of [`Scenario::to_json`].
+impl Serialize for Scenario {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let several = !self.overtones.is_empty();
         let (frequencies, lists) =
             self.components().map(|(frequency, pairs)| (frequency, pairs.to_vec())).unzip();
@@ -121,7 +122,7 @@ impl Scenario {
             }
             _ => (None, None),
         };
-        ScenarioFile {
+        let file = ScenarioFile {
             spacing: self.spacing,
             natural_frequency: self.natural_frequency,
             forcing_frequency: (!several).then_some(self.forcing_frequency),
@@ -139,25 +140,12 @@ impl Scenario {
             } else {
                 Forcing::One(self.forcing.clone())
             },
-        }
+        };
+        file.serialize(serializer)
     }
 }
 
-/// In the form of [`Scenario::to_json`].
-impl Serialize for Scenario {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        self.to_file().serialize(serializer)
-    }
-}
-
-impl<'de> Deserialize<'de> for Scenario {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Scenario, D::Error> {
-        let file = ScenarioFile::deserialize(deserializer)?;
-        file.into_scenario().map_err(D::Error::custom)
-    }
-}
-
-fn parse(text: &str) -> Result<ScenarioFile, Error> {
+fn read_file(text: &str) -> Result<ScenarioFile, Error> {
     // Fields have names: an array is not taken for them by position.
     let value: Value = serde_json::from_str(text).unwrap_or_default();
     let objects =

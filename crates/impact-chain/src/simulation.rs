@@ -2,12 +2,12 @@
 
 use super::budget::Budget;
 use super::error::Error;
-use super::event::Event;
 use super::flight::{Motion, Phases};
 use super::force::Force;
 use super::impact::jumps;
 use super::state::State;
 use super::topology::Topology;
+use crate::Event;
 use crate::search::clock::{Instant, LATEST};
 use crate::search::earliest::Earliest;
 use crate::search::first_root::Search;

@@ -1,9 +1,9 @@
 //! Describes a state of the masses at any time, and the scenario that starts there.
 
 use crate::error::{Error, check_range};
-use crate::forcing::{response_at_zero, rotate_phases};
+use crate::flight::response;
 use crate::scenario::{Initial, Scenario};
-use crate::search::clock::{Instant, LATEST};
+use crate::search::clock::{Instant, LATEST, Rate};
 use crate::topology::Topology;
 
 /// Positions and velocities of the masses 1..n at a time, from which a method starts.
@@ -28,11 +28,8 @@ pub(crate) const AT_REST: f64 = 1e-12;
 const UNITS: f64 = 16.0;
 
 impl State {
-    /// Returns the state of a scenario at t = 0.
-    ///
-    /// # Panics
-    /// Panics if `places`, or the amplitudes of an overtone, are fewer than the scenario's bodies.
-    /// [`Scenario::validate`] refuses these.
+    /// Returns the state of a scenario at t = 0. Panics if `places`, or the amplitudes of an
+    /// overtone, are fewer than the scenario's bodies. [`Scenario::validate`] refuses these.
     pub fn from_scenario(scenario: &Scenario) -> State {
         let w = scenario.natural_frequency;
         let mut state = State { time: 0.0, positions: Vec::new(), velocities: Vec::new() };
@@ -118,5 +115,30 @@ impl State {
         }
         moved.initial = Initial::Free(free);
         Ok(moved)
+    }
+}
+
+/// Returns the forced response of each mass at t = 0: displacement and velocity.
+fn response_at_zero(scenario: &Scenario) -> Vec<[f64; 2]> {
+    let mut responses = vec![[0.0; 2]; scenario.forcing.len()];
+    for (frequency, forces) in scenario.components() {
+        for ([x, v], force) in responses.iter_mut().zip(forces) {
+            let [c, s] = response(scenario.natural_frequency, frequency, *force);
+            *x += c;
+            *v += frequency * s;
+        }
+    }
+    responses
+}
+
+/// Rotates the phases of the forcing by those at an instant, which becomes t = 0.
+fn rotate_phases(scenario: &mut Scenario, instant: Instant) {
+    let first = (scenario.forcing_frequency, &mut scenario.forcing);
+    let further = scenario.overtones.iter_mut().map(|o| (o.frequency, &mut o.amplitudes));
+    for (frequency, forces) in std::iter::once(first).chain(further) {
+        let (sin, cos) = Rate::new(frequency).sin_cos(instant);
+        for [alpha, beta] in forces {
+            (*alpha, *beta) = (*alpha * cos + *beta * sin, *beta * cos - *alpha * sin);
+        }
     }
 }

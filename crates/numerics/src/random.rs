@@ -32,7 +32,6 @@ impl NormalPairs {
         NormalPairs(generator(experiment, seed, realisation))
     }
 
-    /// Draws the next pair.
     pub fn pair(&mut self) -> [f64; 2] {
         loop {
             let [x, y]: [f64; 2] = UnitDisc.sample(&mut self.0);

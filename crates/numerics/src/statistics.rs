@@ -20,8 +20,7 @@ pub fn mean(sample: &[f64]) -> Option<f64> {
     (!sample.is_empty()).then(|| sample.iter().sum::<f64>() / sample.len() as f64)
 }
 
-/// Returns the standard deviation with n − 1 degrees of freedom, or `None` below two
-/// values.
+/// Returns the standard deviation with n − 1 degrees of freedom, or `None` below two values.
 pub fn standard_deviation(sample: &[f64]) -> Option<f64> {
     let centre = mean(sample)?;
     let squares: f64 = sample.iter().map(|x| (x - centre) * (x - centre)).sum();
@@ -199,6 +198,7 @@ mod tests {
         // Up, down again, and up for good between 3 and 4, at a quarter of the way.
         let y = [Some(0.0), Some(9.0), Some(4.0), Some(8.0), Some(9.0)];
         assert_eq!(last_rise(&x, &y, 5.0), Some(3.25));
+        assert_eq!(last_rise(&x, &y, 4.0), Some(1.0 + 4.0 / 9.0));
         // A missing point is passed over: the line goes from (2, 0) to (4, 8).
         let y = [None, Some(0.0), None, Some(8.0), Some(9.0)];
         assert_eq!(last_rise(&x, &y, 4.0), Some(3.0));

@@ -2,31 +2,18 @@
 
 use crate::{Array, compute_detached, to_python};
 use impact_chain::{
-    Abreast, Chain, Counts, Engine, Error, LATEST, Protocol, Scenario, Watch, check_range,
+    Abreast, Counts, Engine, Error, LATEST, Protocol, Scenario, Watch, check_range,
 };
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
-/// The chain of a scenario, without its forcing, its places and its start.
-fn chain(scenario: &Scenario) -> Chain {
-    Chain {
-        masses: scenario.forcing.len(),
-        spacing: scenario.spacing,
-        natural_frequency: scenario.natural_frequency,
-        forcing_frequency: scenario.forcing_frequency,
-        restitution: scenario.restitution,
-        boundary: scenario.boundary,
-        ..Chain::default()
-    }
-}
-
 /// Counts the impacts of scenarios of one chain: side by side if they fill a batch, and by the
 /// engine what that leaves.
 fn count(scenarios: &[&Scenario], window: Protocol, stop: &AtomicBool) -> Result<Counts, Error> {
     let stopped = || stop.load(Relaxed);
-    let (chain, end) = (chain(scenarios[0]), window.end());
+    let (chain, end) = (scenarios[0].chain(), window.end());
     let batch = Abreast::batch_size(&chain);
     let mut counts: Vec<Option<Counts>> = vec![None; scenarios.len()];
     if scenarios.len() >= batch
@@ -82,7 +69,7 @@ pub fn ensemble<'py>(
     let window = Protocol { transient, window: until - transient };
     let counts: Counts = compute_detached(py, |stop| {
         let scenarios: Vec<&Scenario> = scenarios.iter().map(|one| &one.get().0).collect();
-        let groups = scenarios.par_chunk_by(|one, next| chain(one) == chain(next));
+        let groups = scenarios.par_chunk_by(|one, next| one.chain() == next.chain());
         let counts: Result<Vec<_>, _> = groups.map(|group| count(group, window, stop)).collect();
         Ok(counts?.into_iter().collect())
     })?;

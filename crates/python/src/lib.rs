@@ -3,7 +3,7 @@
 mod ensemble;
 
 use impact_chain::{
-    Chain, Engine, Error, ErrorKind, Event, LATEST, NormalPairs, Seed, Start, State, check_range,
+    Chain, Engine, Error, Event, LATEST, NormalPairs, Seed, Start, State, check_range,
 };
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
@@ -17,8 +17,8 @@ type Array<'py, T = f64> = Bound<'py, PyArray1<T>>;
 type Matrix<'py> = Bound<'py, PyArray2<f64>>;
 
 fn to_python(error: Error) -> PyErr {
-    match error.kind() {
-        ErrorKind::Work => PyRuntimeError::new_err(error.to_string()),
+    match error {
+        Error::Work { .. } => PyRuntimeError::new_err(error.to_string()),
         _ => PyValueError::new_err(error.to_string()),
     }
 }

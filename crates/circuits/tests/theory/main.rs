@@ -45,7 +45,6 @@ pub fn near(x: &Big) -> f64 {
     x.to_f64().value()
 }
 
-/// A Gauss–Legendre rule in high precision.
 pub struct Gauss(Vec<(Big, Big)>);
 
 impl Gauss {

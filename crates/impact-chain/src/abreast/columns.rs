@@ -30,7 +30,6 @@ pub struct Columns {
     /// between walls, and copies of the last and the first gap on a ring, with a SAG of −1.
     pub rows: [Vec<f64>; LAST + 1],
     gaps: usize,
-    /// Columns of a chain.
     stride: usize,
     /// The first columns of blocks with a gap that can close, and whether a block is among them.
     pub active: Vec<usize>,

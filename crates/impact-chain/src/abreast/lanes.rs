@@ -1,8 +1,7 @@
 //! Keeps the gaps of many chains in lanes of wide registers, and looks at all of them step by step.
 
 use super::columns::{A, B, C, Columns, D, FORCED, LAST, REACH, SAG, TAME, WIDTH};
-use super::grid::{Grid, Phases, Step};
-use super::plan::Plan;
+use super::plan::{Grid, Phases, Plan, Step};
 use super::proof::{LARGEST, MARGIN, Part, blur, least_width};
 use super::roots::Candidates;
 use super::slot::Slot;
@@ -94,7 +93,6 @@ impl<'a> Lanes<'a> {
         }
     }
 
-    /// Looks at all gaps that can close.
     #[inline(always)]
     fn look<S: Simd>(&mut self, simd: S, start: Phases, step: &Step) {
         self.scan(simd, step.end);

@@ -8,21 +8,18 @@
 //! impacts and contact, adjacent impacts whose order rounding cannot tell, dips near zero.
 
 mod columns;
-mod grid;
 mod lanes;
 mod plan;
 mod proof;
 mod roots;
 mod slot;
 
-use crate::forcing::gap_amplitudes;
 use crate::vectors::vector_level;
 use crate::{Boundary, Chain, Counts, Engine, Error, HitGaps, Protocol, Scenario, Watch};
 use columns::Columns;
 use fearless_simd::{Level, dispatch};
-use grid::Grid;
 use lanes::Lanes;
-use plan::Plan;
+use plan::{Grid, Plan};
 use proof::SLOW;
 use slot::Slot;
 
@@ -68,7 +65,6 @@ pub struct Counting {
 
 impl Counting {
     /// Prepares runs of a chain through the windows that end by `until`.
-    #[must_use]
     pub fn new(chain: &Chain, windows: &[Protocol], until: f64) -> Counting {
         let abreast = Abreast::new(chain, windows, until);
         Counting { chain: chain.clone(), windows: windows.to_vec(), until, abreast }
@@ -109,7 +105,6 @@ impl Abreast {
     /// no windows. Returns `None` if all of them are left to the engine: with r near 0, where
     /// masses stick, r = 1, where it keeps the energy, rings of one or two masses, and very long
     /// runs.
-    #[must_use]
     pub fn new(chain: &Chain, windows: &[Protocol], until: f64) -> Option<Abreast> {
         let frequencies = [chain.natural_frequency, chain.forcing_frequency];
         let mut watch = Watch::new(chain, windows);
@@ -138,7 +133,6 @@ impl Abreast {
     }
 
     /// Returns how many realisations of a chain are best simulated together.
-    #[must_use]
     pub fn batch_size(chain: &Chain) -> usize {
         (MASSES / chain.masses.max(1)).clamp(1, 16)
     }
@@ -179,16 +173,10 @@ impl Abreast {
         slots.into_iter().enumerate().map(done).collect()
     }
 
-    /// Sets a realisation at t = 0.
     fn set(&self, place: usize, scenario: &Scenario, columns: &mut Columns) -> Slot {
         let chain = &self.chain;
         let mut watch = Watch::new(chain, &self.windows);
-        let alike = scenario.spacing == chain.spacing
-            && scenario.natural_frequency == chain.natural_frequency
-            && scenario.forcing_frequency == chain.forcing_frequency
-            && scenario.restitution == chain.restitution
-            && scenario.boundary == chain.boundary
-            && scenario.forcing.len() == chain.masses
+        let alike = Chain { start: chain.start, ..scenario.chain() } == *chain
             && scenario.overtones.is_empty()
             && scenario.places.is_none();
         let ready = watch.begin(self.until).is_ok();
@@ -201,7 +189,7 @@ impl Abreast {
             slot.hand_over();
             return slot;
         }
-        for (gap, amplitudes) in gap_amplitudes(scenario).into_iter().enumerate() {
+        for (gap, amplitudes) in scenario.gap_amplitudes().into_iter().enumerate() {
             let width = 1.0 + amplitudes[0] + amplitudes[2];
             let is_bounded = columns.set(place, gap, amplitudes, &self.plan);
             if !is_bounded || width.is_nan() || width <= OPEN {
@@ -220,7 +208,6 @@ impl Realisation {
 
     /// Returns free parts (a_j, b_j) of the masses at the end that give the same gaps; on a ring
     /// those of the first mass are zero.
-    #[must_use]
     pub fn free_parts(&self, chain: &Chain) -> Vec<[f64; 2]> {
         let first = usize::from(chain.boundary == Boundary::Ring);
         let mut sum = [0.0; 2];

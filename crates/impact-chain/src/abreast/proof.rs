@@ -3,7 +3,7 @@
 //! Lengths are in units of d and times in units of 1/ω, so that a gap is
 //! f = 1 + u + v with u'' = −u and v'' = −ρ² v, ρ = Ω/ω. M₂ and M₃ are bounds of |f''| and |f'''|.
 
-use super::grid::Phases;
+use super::plan::Phases;
 use fearless_simd::{f64x4, mask64x4, prelude::*};
 
 /// A width, in units of d, by which f > 0 has to be proven: more than ten times what rounding can
@@ -48,7 +48,6 @@ pub const LARGEST: f64 = 64.0;
 const TURNS: usize = 200;
 
 /// A gap about the middle of a step: f = 1 + u cos s + q sin s + v cos ρs + z/ρ sin ρs.
-#[derive(Clone, Copy, Debug)]
 pub struct Local {
     u: f64,
     q: f64,
@@ -76,10 +75,12 @@ pub struct Part {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Outcome {
-    /// No root.
     Open,
     /// The first root, and the speed −f' there.
-    Root { s: f64, speed: f64 },
+    Root {
+        s: f64,
+        speed: f64,
+    },
     /// Rounding does not tell, or the speed is below [`SLOW`].
     Unsure,
 }
@@ -153,8 +154,7 @@ impl Local {
         f0 + rate0 * half > sunk && f1 - rate1 * half > sunk
     }
 
-    /// Goes by steps without a root to the first root or the end, as
-    /// f(t + s) ≥ f + f' s − M₂ s²/2.
+    /// Goes by steps without a root to the first root or the end, as f(t + s) ≥ f + f' s − M₂ s²/2.
     fn step_to_root(&self, Part { start, end, just_hit, .. }: Part) -> Outcome {
         let bend = self.bend();
         let mut s = start;
@@ -272,8 +272,8 @@ mod tests {
     fn bounds_of_all_parts() {
         let gap = Local { u: 3.0, q: -4.0, v: -2.0, z: 8.0, ratio: 3.0 };
         let [second, change] = gap.curvature(0.125);
-        for (found, exact) in [(second, 15.0), (8.0 * change, 133.0), (gap.bend(), 35.0)] {
-            assert!((0.0..2e-12).contains(&(found / exact - 1.0)), "{found} {exact}");
+        for (bound, exact) in [(second, 15.0), (8.0 * change, 133.0), (gap.bend(), 35.0)] {
+            assert!((0.0..2e-12).contains(&(bound / exact - 1.0)), "{bound} {exact}");
         }
     }
 
@@ -282,8 +282,8 @@ mod tests {
     fn gaps_that_are_open_by_their_ends() {
         let (start, end) = (-0.125, 0.125);
         let part = Part { start, end, after: start, just_hit: false, tame: false };
-        for (rate, at, v) in [(0.0, 0.03, 0.0), (-0.1, 0.0, 0.34), (0.1, 0.0, 0.34)] {
-            let gap = |width: f64| gap_with(width, rate, at, [v, 0.0], 2.0);
+        for (rate, place, v) in [(0.0, 0.03, 0.0), (-0.1, 0.0, 0.34), (0.1, 0.0, 0.34)] {
+            let gap = |width: f64| gap_with(width, rate, place, [v, 0.0], 2.0);
             let height = |width: f64| {
                 let gap = gap(width);
                 let ([f0, rate0], [f1, rate1]) =
@@ -299,13 +299,13 @@ mod tests {
             assert!(!gap(width - 1e-13).is_open(part), "{rate} {v}: {width}");
         }
         let (hit, tame) = (Part { just_hit: true, ..part }, Part { tame: true, ..part });
-        for (width, rate, at, v, part) in [
+        for (width, rate, place, v, part) in [
             (0.05, 0.0, 0.0, 2.0, part),
             (0.0, 0.1, start, 0.0, hit),
             (0.5, 2.0, start, 2.0, tame),
             (0.5, -2.0, end, 2.0, tame),
         ] {
-            assert!(gap_with(width, rate, at, [v, 0.0], 2.0).is_open(part), "{width} {rate}");
+            assert!(gap_with(width, rate, place, [v, 0.0], 2.0).is_open(part), "{width} {rate}");
         }
         assert!(!gap_with(0.9 * MARGIN, 0.1, start, [0.0; 2], 2.0).is_open(part));
     }

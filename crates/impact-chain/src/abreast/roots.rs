@@ -1,7 +1,6 @@
 //! Locates the first roots of many gaps together.
 
-use super::grid::Phases;
-use super::plan::Plan;
+use super::plan::{Phases, Plan};
 use super::proof::{Part, SLOW};
 use super::slot::{Root, Slot};
 use fearless_simd::{f64x8, mask64x8, prelude::*};
@@ -207,9 +206,9 @@ mod tests {
             let sum = |terms: u32, of: fn(f64) -> f64| -> f64 {
                 (0..terms).map(|n| of(f64::from(n)) * 0.5_f64.powi(n as i32)).sum()
             };
-            for (found, last) in [(rough(&p, s), [8, 7]), (full(&p, s), [12, 8])] {
+            for (values, last) in [(rough(&p, s), [8, 7]), (full(&p, s), [12, 8])] {
                 let rates = [sum(last[0], |n| 2.0 * n), sum(last[1], |n| 4.0 * n * (n - 1.0))];
-                assert_eq!(found.map(|x| x[0]), [sum(last[0], |_| 1.0), rates[0], rates[1]]);
+                assert_eq!(values.map(|x| x[0]), [sum(last[0], |_| 1.0), rates[0], rates[1]]);
             }
         });
     }
@@ -221,8 +220,8 @@ mod tests {
             // 1 + 5 cos s + 7 sin s + 2 cos 3s + sin 3s.
             let p = polynomial(of([5.0, 7.0, 2.0, 3.0]), 3.0).map(|x| x[0]);
             let exact = [8.0, 10.0, -23.0 / 2.0, -34.0 / 6.0, 167.0 / 24.0, 250.0 / 120.0];
-            for (i, (found, exact)) in p.into_iter().zip(exact).enumerate() {
-                assert!((found - exact).abs() < 1e-14, "{i}: {found} {exact}");
+            for (i, (coefficient, exact)) in p.into_iter().zip(exact).enumerate() {
+                assert!((coefficient - exact).abs() < 1e-14, "{i}: {coefficient} {exact}");
             }
             let last = -(7.0 + 3.0_f64.powi(11)) / 39_916_800.0;
             assert!((p[11] / last - 1.0).abs() < 1e-14, "{p:?}");

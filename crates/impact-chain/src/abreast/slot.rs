@@ -1,7 +1,6 @@
 //! Keeps one of the chains that are simulated side by side.
 
-use super::grid::Phases;
-use super::plan::Plan;
+use super::plan::{Phases, Plan};
 use super::proof::{Local, Outcome, Part, SLOW, blur, cos_sin};
 use crate::Watch;
 
@@ -15,7 +14,6 @@ pub struct Root {
     pub jump: [f64; 2],
 }
 
-/// One of the chains that are simulated side by side.
 pub struct Slot {
     pub watch: Watch,
     /// First roots of gaps within this step, in any order.
@@ -24,9 +22,7 @@ pub struct Slot {
     pub first: usize,
     /// Whether it has roots or candidates in this step.
     pub is_pending: bool,
-    /// Whether the chain has to be simulated by the engine.
     pub handed_over: bool,
-    /// Whether it is not simulated any further.
     pub has_ended: bool,
     /// Which gaps were hit since the time from which they count, and how many more end the chain.
     is_hit: Vec<bool>,
@@ -58,7 +54,6 @@ impl Slot {
         self.to_hit == 0
     }
 
-    /// Ends the simulation of the chain.
     pub fn end(&mut self) {
         self.has_ended = true;
         self.roots.clear();

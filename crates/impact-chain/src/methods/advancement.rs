@@ -2,9 +2,8 @@
 
 use super::flights::{Flights, GapState};
 use super::method::Task;
-use super::rival::{Rival, Run};
+use super::rival::{Rival, Run, Stop, Tally};
 use super::steps::check_tolerance;
-use super::tally::{Stop, Tally};
 use crate::Error;
 use crate::search::clock::{Instant, LATEST};
 use crate::search::earliest::Earliest;
@@ -79,15 +78,12 @@ impl Gaps {
                     let neighbour = self.flights.gap_at(j, &phases);
                     self.advance_gap(j, now, neighbour);
                 }
-                self.advance_gap(k, now, gap);
                 tally.impact(k, now.time(), speed)?;
-            } else {
+            } else if gap.width <= self.reached {
                 // So near to zero the number of evaluations has no bound.
-                if gap.width <= self.reached {
-                    tally.spend(k, now.time())?;
-                }
-                self.advance_gap(k, now, gap);
+                tally.spend(k, now.time())?;
             }
+            self.advance_gap(k, now, gap);
         }
     }
 

@@ -1,10 +1,9 @@
 //! Holds the row of masses for integrators: displacements, velocities, forces, impact law.
 
+use super::forcing::{Component, Phases, phases};
 use super::method::Task;
 use super::steps::Step;
 use crate::Error;
-use crate::forcing::{Component, Phases, phases};
-use crate::impact::share_change;
 use crate::scenario::COMPONENTS;
 use crate::search::clock::{Instant, Rate};
 use crate::topology::Topology;
@@ -51,32 +50,26 @@ impl Bodies {
         Ok(row)
     }
 
-    #[inline]
     pub fn width_at(&self, k: usize, u: &[f64]) -> f64 {
         let [left, right] = self.topology.sides(k);
         self.spacing + (u[right] - u[left])
     }
 
-    #[inline]
     pub fn width(&self, k: usize) -> f64 {
         self.width_at(k, &self.u)
     }
 
-    #[inline]
     pub fn rate(&self, k: usize) -> f64 {
         let [left, right] = self.topology.sides(k);
         self.v[right] - self.v[left]
     }
 
     pub fn hit(&mut self, k: usize, speed: f64) {
-        let [left, right] = self.topology.sides(k);
+        let [left, right] = self.topology.inverse_masses(k);
         let change = speed + (self.restitution * speed).max(self.least_rebound);
-        let jumps = share_change(change, self.topology.inverse_masses(k));
-        self.v[left] += jumps[0];
-        self.v[right] += jumps[1];
+        push(&self.topology, k, change / (left + right), &mut self.v);
     }
 
-    /// Lists the rates of the forcing, for the phases of steps.
     pub fn rates(&self) -> Vec<Rate> {
         self.forcing.iter().map(|component| component.rate).collect()
     }

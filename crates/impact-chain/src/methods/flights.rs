@@ -1,16 +1,22 @@
 //! Computes flight in closed form, for methods that evaluate gaps at given times.
 
+use super::forcing::{Component, Phases, phases};
 use super::method::Task;
-use super::sign_change::is_open;
 use crate::Error;
-use crate::flight::INFLATION;
-use crate::forcing::{Component, Phases, phases};
+use crate::flight::{INFLATION, length};
 use crate::impact::share_change;
 use crate::search::clock::{Instant, Rate};
 use crate::topology::Topology;
 
-/// Width and rate of a gap.
-#[derive(Clone, Copy, Debug)]
+/// Width, in units of d, above which an opening gap that has just been hit may be below zero.
+const ROUNDING: f64 = 1e-12;
+
+/// Returns whether a gap of this width and rate is not below zero, or by rounding only, as one just
+/// hit.
+pub fn is_open(width: f64, rate: f64, spacing: f64) -> bool {
+    width >= 0.0 || rate >= 0.0 && width >= -ROUNDING * spacing
+}
+
 pub struct GapState {
     pub width: f64,
     pub rate: f64,
@@ -76,7 +82,6 @@ impl Flights {
         [v, rate]
     }
 
-    /// Evaluates gap k at a time whose phases are given.
     pub fn gap_at(&self, k: usize, phases: &FlightPhases) -> GapState {
         let sides = self.topology.sides(k);
         let [free_left, free_right] = sides.map(|m| self.free[m]);
@@ -92,14 +97,14 @@ impl Flights {
     /// Bounds how far gap k is from d, Σ R over its sinusoids, and its second derivative, Σ R Ω².
     pub fn bounds(&self, k: usize) -> [f64; 2] {
         let [left, right] = self.topology.sides(k);
-        let length = |x: f64, y: f64| (x * x + y * y).sqrt();
         let [free_left, free_right] = [self.free[left], self.free[right]];
-        let free = length(free_right[0] - free_left[0], free_right[1] - free_left[1]);
+        let free = length([free_right[0] - free_left[0], free_right[1] - free_left[1]]);
         let (mut reach, mut curvature) = (free, self.omega * self.omega * free);
         for part in &self.forced {
             let [c, s] = [&part.cos, &part.sin].map(|of_bodies| of_bodies[right] - of_bodies[left]);
-            reach += length(c, s);
-            curvature += part.frequency * part.frequency * length(c, s);
+            let forced = length([c, s]);
+            reach += forced;
+            curvature += part.frequency * part.frequency * forced;
         }
         [INFLATION * reach, INFLATION * curvature]
     }
@@ -116,5 +121,23 @@ impl Flights {
             self.free[side][1] += kick * cos;
         }
         rebound
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_gap_is_open_down_to_rounding_if_it_opens() {
+        for (width, rate, spacing, expected) in [
+            (0.0, -1.0, 1.0, true),
+            (-0.9e-12, 0.0, 1.0, true),
+            (-0.9e-12, -1e-3, 1.0, false),
+            (-1.1e-12, 1.0, 1.0, false),
+            (-1.1e-12, 1.0, 2.0, true),
+        ] {
+            assert_eq!(is_open(width, rate, spacing), expected, "{width}, {rate}, {spacing}");
+        }
     }
 }

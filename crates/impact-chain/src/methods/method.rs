@@ -1,7 +1,6 @@
 //! Defines the trait of all ways to simulate a chain.
 
-use crate::impact::{Impact, Sink, collect_impacts};
-use crate::{Error, Graze, Scenario, State};
+use crate::{Error, Graze, Impact, Scenario, Sink, State};
 
 /// What no other crate can implement.
 pub trait Sealed {}
@@ -26,7 +25,6 @@ pub struct Cost {
 
 impl Cost {
     /// Returns the evaluations of an impact, or `None` without impacts.
-    #[must_use]
     pub fn evaluations_per_impact(&self) -> Option<f64> {
         (self.impacts > 0).then(|| self.evaluations as f64 / self.impacts as f64)
     }
@@ -43,7 +41,8 @@ pub struct Task<'a> {
     pub until: f64,
 }
 
-/// A way to simulate a chain. Only this crate has some: another may not rely on their parts.
+/// A way to simulate a chain. Only this crate has some: another may not rely on their parts. All
+/// that run have the errors of [`run`](Method::run).
 pub trait Method: Sealed + Sync {
     /// Returns the name, as in `trace --method`, e.g. "verlet".
     fn name(&self) -> &'static str;
@@ -60,18 +59,22 @@ pub trait Method: Sealed + Sync {
     fn run(&self, task: Task, sink: Sink) -> Result<Cost, Error>;
 
     /// Returns the first impact, or `None` if there is no impact.
-    ///
-    /// # Errors
-    /// Those of [`run`](Method::run).
     fn first(&self, task: Task) -> Result<Option<Impact>, Error> {
-        Ok(collect_impacts(1, |sink| self.run(task, sink))?.pop())
+        let mut first = None;
+        self.run(task, &mut |impact| {
+            first = Some(impact);
+            false
+        })?;
+        Ok(first)
     }
 
     /// Returns all impacts, in order.
-    ///
-    /// # Errors
-    /// Those of [`run`](Method::run).
     fn impacts(&self, task: Task) -> Result<Vec<Impact>, Error> {
-        collect_impacts(usize::MAX, |sink| self.run(task, sink))
+        let mut impacts = Vec::new();
+        self.run(task, &mut |impact| {
+            impacts.push(impact);
+            true
+        })?;
+        Ok(impacts)
     }
 }

@@ -13,26 +13,24 @@
 
 mod advancement;
 mod bodies;
-mod certified;
 mod flights;
+mod forcing;
 mod method;
 mod moreau_jean;
 mod penalty;
 mod rival;
 mod runge_kutta;
 mod sampled;
-mod sign_change;
 mod steps;
-mod tally;
 pub mod truth;
 mod verlet;
 mod verlet_abreast;
 
 pub use advancement::Advancement;
-pub use certified::Certified;
 pub use method::{Cost, Method, Task};
 pub use moreau_jean::MoreauJean;
 pub use penalty::Penalty;
+pub use rival::Certified;
 pub use runge_kutta::RungeKutta;
 pub use sampled::Sampled;
 pub use truth::Truth;

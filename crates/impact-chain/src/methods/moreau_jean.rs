@@ -2,9 +2,8 @@
 
 use super::bodies::{Bodies, push};
 use super::method::Task;
-use super::rival::{Rival, Run, Stepper, run_steps};
+use super::rival::{Rival, Run, Stepper, Stop, Tally, run_steps};
 use super::steps::Step;
-use super::tally::{Stop, Tally};
 use crate::Error;
 use fearless_simd::Simd;
 
@@ -103,7 +102,7 @@ impl Stepper for Impulses {
         let before = std::mem::take(&mut self.touching);
         self.touching = pressed().map(|gap| gap.k).collect();
         for gap in pressed().filter(|gap| !before.contains(&gap.k)) {
-            tally.impact(gap.k, step.from().after(half).time(), (-gap.rate).max(0.0))?;
+            tally.impact(gap.k, step.from.after(half).time(), (-gap.rate).max(0.0))?;
         }
         Ok(())
     }

@@ -2,9 +2,8 @@
 
 use super::bodies::{Bodies, push};
 use super::method::Task;
-use super::rival::{Rival, Run, Stepper, run_steps};
+use super::rival::{Rival, Run, Stepper, Stop, Tally, run_steps};
 use super::steps::Step;
-use super::tally::{Stop, Tally};
 use crate::Error;
 use fearless_simd::Simd;
 use std::f64::consts::PI;
@@ -49,24 +48,19 @@ impl Rival for Penalty {
         let steps = (DURATION / (self.step * omega)).sqrt().max(STEPS);
         let contact = PI / (steps * self.step);
         let rates = row.rates();
+        // ζ, with which a contact ends with r times the first speed.
+        let log = pxfm::f_log(row.restitution);
+        let damping_ratio =
+            if row.restitution == 0.0 { 1.0 } else { -log / (PI * PI + log * log).sqrt() };
         let springs = Springs {
             stiffness: contact * contact,
-            damping: 2.0 * damping_ratio(row.restitution) * contact,
+            damping: 2.0 * damping_ratio * contact,
             shut: Vec::new(),
             contacts: Vec::new(),
             row,
         };
         run_steps(task, self.step, rates, springs)
     }
-}
-
-/// Returns ζ of a spring and damper whose contact ends with r times the first speed.
-fn damping_ratio(r: f64) -> f64 {
-    if r == 0.0 {
-        return 1.0;
-    }
-    let log = pxfm::f_log(r);
-    -log / (PI * PI + log * log).sqrt()
 }
 
 struct Springs {
@@ -101,7 +95,7 @@ impl Stepper for Springs {
             let speed = -row.rate(k);
             let touches = before.iter().any(|(gap, _)| *gap == k);
             if !touches && speed > 0.0 {
-                tally.impact(k, step.to().time(), speed)?;
+                tally.impact(k, step.to.time(), speed)?;
             }
             if touches || speed > 0.0 {
                 self.contacts.push((k, 0.0));

@@ -1,13 +1,14 @@
 //! Integrates by a Runge–Kutta pair of orders 5 and 4 with events.
 
 use super::bodies::Bodies;
+use super::flights::is_open;
 use super::method::Task;
-use super::rival::{Rival, Run};
-use super::sign_change::{closing_time, is_open};
+use super::rival::{Rival, Run, Stop, Tally};
 use super::steps::check_tolerance;
-use super::tally::{Stop, Tally};
 use crate::Error;
 use crate::search::clock::Instant;
+use impact_numerics::roots::bracket;
+use std::mem::swap;
 
 /// The pair of Dormand and Prince with a tolerance; a gap that is negative at the end of a step is
 /// an event, bisected on the dense output; the earliest ends the step, and integration starts
@@ -82,7 +83,9 @@ impl Steps {
                     // A step that was cut short by the end of the run must not shorten the next.
                     wanted = if h < wanted { wanted.max(grown) } else { grown };
                     self.now = if h == left { end } else { self.now.after(h) };
-                    self.stages.accept();
+                    // The next step starts from the end of this one.
+                    swap(&mut self.stages.y, &mut self.stages.next);
+                    self.stages.k.swap(0, 6);
                 }
             }
         }
@@ -131,6 +134,32 @@ impl Steps {
         tally.cost.evaluations += self.row.masses();
         tally.event(k, self.now.time(), speed)
     }
+}
+
+/// Halvings of the time after an impact until a width above zero is found.
+const HALVINGS: u32 = 64;
+
+/// Returns the last time in [0, end] before `width` becomes negative, given its value `first` ≥ 0
+/// at 0 and a negative one at the end. At most 128 evaluations.
+///
+/// A gap that has just been hit has the width 0; first a time at which it is open is found by
+/// halving. If there is none, the gap is shut from 0 on.
+pub fn closing_time(end: f64, first: f64, mut width: impl FnMut(f64) -> f64) -> f64 {
+    let (mut open, mut shut) = (0.0, end);
+    if first <= 0.0 {
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * shut;
+            if width(middle) > 0.0 {
+                open = middle;
+                break;
+            }
+            shut = middle;
+        }
+        if open == 0.0 {
+            return 0.0;
+        }
+    }
+    bracket(open, shut, |s| width(s) < 0.0)[0]
 }
 
 /// Returns the factor for the next step after one with this error.
@@ -196,7 +225,6 @@ impl Stages {
         stages
     }
 
-    /// Restarts at `y`, which an impact has changed.
     fn restart(&mut self, row: &Bodies, instant: Instant) {
         differentiate(row, instant, &self.y, &mut self.k[0]);
     }
@@ -235,18 +263,12 @@ impl Stages {
         self.y[i] + theta * (difference + rest * (bend + theta * (third + rest * fourth)))
     }
 
-    /// Accepts the step: the next one starts from its end.
-    fn accept(&mut self) {
-        std::mem::swap(&mut self.y, &mut self.next);
-        self.k.swap(0, 6);
-    }
-
     /// Cuts the step at its fraction θ; [`Stages::restart`] must follow.
     fn cut(&mut self, theta: f64) {
         for i in 0..self.y.len() {
             self.next[i] = self.dense(i, theta);
         }
-        std::mem::swap(&mut self.y, &mut self.next);
+        swap(&mut self.y, &mut self.next);
     }
 }
 

@@ -1,13 +1,12 @@
 //! Simulates by sampling gaps on a grid of times; Newton's method finds zeros between.
 
-use super::flights::Flights;
+use super::flights::{Flights, is_open};
+use super::forcing::Component;
 use super::method::Task;
-use super::rival::{Rival, Run, Stepper, run_steps};
-use super::sign_change::is_open;
+use super::rival::{Rival, Run, Stepper, Stop, Tally, run_steps};
 use super::steps::Step;
-use super::tally::{Stop, Tally};
 use crate::Error;
-use crate::forcing::Component;
+use crate::flight::length;
 use crate::impact::share_change;
 use crate::search::clock::{Instant, Rate};
 use crate::topology::Topology;
@@ -95,7 +94,6 @@ struct Gaps {
     parts: Vec<Part>,
     /// M₂ h²/8 of each gap: how far it may be below the chord of a step.
     sag: Vec<f64>,
-    /// Length of the step.
     h: f64,
     /// Terms of the polynomial that a step of this length needs.
     terms: usize,
@@ -103,7 +101,6 @@ struct Gaps {
     low: Vec<u64>,
     /// (sin, cos) at the beginning of the step, or at the last impact.
     phases_now: Vec<(f64, f64)>,
-    /// (sin, cos) at the middle of the step.
     phases_at_middle: Vec<(f64, f64)>,
     /// Half the advance of each phase in a step, as (sin, cos).
     half_step_angles: Vec<(f64, f64)>,
@@ -155,12 +152,12 @@ impl Gaps {
 
     /// Returns M₂ h²/8 of gap k, with M₂ the bound of its curvature.
     fn sag(&self, k: usize) -> f64 {
-        let bound_of_curvature = |part: &Part| part.frequency * part.frequency * part.reach(k);
+        let bound_of_curvature =
+            |part: &Part| part.frequency * part.frequency * length([part.cos[k], part.sin[k]]);
         let forced = self.parts[1..].iter().map(bound_of_curvature).sum::<f64>();
         (forced + bound_of_curvature(&self.parts[0])) * self.h * self.h / 8.0
     }
 
-    /// Sets the length of the next steps.
     fn set_step(&mut self, h: f64) {
         self.h = h;
         for (half, part) in self.half_step_angles.iter_mut().zip(&self.parts) {
@@ -183,13 +180,13 @@ impl Gaps {
         let width = S::f64s::LEN;
         for word in 0..self.low.len() {
             let (first, mut low) = (WORD * word, 0);
-            for at in (first..self.sag.len().min(first + WORD)).step_by(width) {
-                let row = |row: &[f64]| S::f64s::from_slice(simd, &row[at..at + width]);
+            for begin in (first..self.sag.len().min(first + WORD)).step_by(width) {
+                let row = |row: &[f64]| S::f64s::from_slice(simd, &row[begin..begin + width]);
                 let mut f = S::f64s::splat(simd, self.spacing);
                 for (part, &(sin, cos)) in self.parts.iter().zip(step.phases) {
                     f += row(&part.cos) * cos + row(&part.sin) * sin;
                 }
-                low |= f.simd_lt(row(&self.sag)).to_bitmask() << (at - first);
+                low |= f.simd_lt(row(&self.sag)).to_bitmask() << (begin - first);
             }
             let mut look = low | std::mem::replace(&mut self.low[word], low);
             while look != 0 {
@@ -203,7 +200,6 @@ impl Gaps {
         }
     }
 
-    /// Evaluates gap k and its rate at given phases.
     #[inline(always)]
     fn width_and_rate(&self, k: usize, phases: &[(f64, f64)]) -> [f64; 2] {
         let parts = self.parts.iter().zip(phases);
@@ -229,8 +225,8 @@ impl Gaps {
         }
         let half = 0.5 * self.h;
         let (mut low, mut high) = (from - half, half);
-        let gap = Polynomial::about_middle(self, k);
-        let value = |x: f64| gap.value(x, self.terms);
+        let polynomial = polynomial(self, k);
+        let value = |x: f64| evaluate(&polynomial, x, self.terms);
         if ends_open {
             // A convex gap stays open if the tangents at both ends meet above zero. Their height
             // there is this over start[1] − end[1] < 0.
@@ -248,7 +244,7 @@ impl Gaps {
                 return;
             }
         }
-        let [p0, p1, p2, p3, p4, p5, ..] = gap.terms;
+        let [p0, p1, p2, p3, p4, p5, ..] = polynomial;
         let inside = (p1 * p1 - 4.0 * p0 * p2).max(0.0);
         let mut x = -2.0 * p0 / (p1 - inside.sqrt());
         let (mut moved, mut rate) = (f64::INFINITY, end[1]);
@@ -257,7 +253,7 @@ impl Gaps {
             if !(x > low && x < high) {
                 x = 0.5 * (low + high);
             }
-            let [f, slope] = if turn == 0 { gap.value(x, ROUGH) } else { value(x) };
+            let [f, slope] = if turn == 0 { evaluate(&polynomial, x, ROUGH) } else { value(x) };
             tally.cost.evaluations += 1;
             if turn > 0 {
                 *if f > 0.0 { &mut low } else { &mut high } = x;
@@ -276,11 +272,10 @@ impl Gaps {
         self.roots.push(Root { time: x + half, gap: k, closing_speed: (-rate).max(0.0) });
     }
 
-    /// Carries out an impact.
     fn hit(&mut self, root: Root, step: &Step, tally: &mut Tally) {
         let Root { time, gap: k, closing_speed } = root;
         let rebound = (self.restitution * closing_speed).max(self.least_rebound);
-        let instant = step.from().after(time);
+        let instant = step.from.after(time);
         for (now, part) in self.phases_now.iter_mut().zip(&self.parts) {
             *now = part.rate.sin_cos(instant);
         }
@@ -306,47 +301,35 @@ impl Gaps {
     }
 }
 
-impl Part {
-    fn reach(&self, k: usize) -> f64 {
-        (self.cos[k] * self.cos[k] + self.sin[k] * self.sin[k]).sqrt()
+/// Returns the Taylor polynomial of gap k about the middle of a step.
+#[inline(always)]
+fn polynomial(gaps: &Gaps, k: usize) -> [f64; TERMS] {
+    let mut terms = [0.0; TERMS];
+    terms[0] = gaps.spacing;
+    for (part, (sin, cos)) in gaps.parts.iter().zip(&gaps.phases_at_middle) {
+        let [a, b] = [part.cos[k], part.sin[k]];
+        let (u, q) = (a * cos + b * sin, b * cos - a * sin);
+        let derivatives = [u, q, -u, -q];
+        for (i, (term, factor)) in terms.iter_mut().zip(&part.factors).enumerate() {
+            *term += derivatives[i % 4] * factor;
+        }
     }
+    terms
 }
 
-/// A gap about the middle of a step.
-struct Polynomial {
-    terms: [f64; TERMS],
-}
-
-impl Polynomial {
-    #[inline(always)]
-    fn about_middle(gaps: &Gaps, k: usize) -> Polynomial {
-        let mut terms = [0.0; TERMS];
-        terms[0] = gaps.spacing;
-        for (part, (sin, cos)) in gaps.parts.iter().zip(&gaps.phases_at_middle) {
-            let [a, b] = [part.cos[k], part.sin[k]];
-            let (u, q) = (a * cos + b * sin, b * cos - a * sin);
-            let derivatives = [u, q, -u, -q];
-            for (i, (term, factor)) in terms.iter_mut().zip(&part.factors).enumerate() {
-                *term += derivatives[i % 4] * factor;
-            }
-        }
-        Polynomial { terms }
+/// Evaluates a gap and its rate by the first `terms` terms, even powers apart from odd.
+#[inline(always)]
+fn evaluate(polynomial: &[f64; TERMS], x: f64, terms: usize) -> [f64; 2] {
+    let square = x * x;
+    let [mut even, mut odd, mut even_rate, mut odd_rate] = [0.0; 4];
+    for pair in (0..terms.div_ceil(2)).rev() {
+        even_rate = even_rate * square + even;
+        odd_rate = odd_rate * square + odd;
+        even = even * square + polynomial[2 * pair];
+        odd = odd * square + polynomial[2 * pair + 1];
     }
-
-    /// Evaluates the gap and its rate by the first `terms` terms, even powers apart from odd.
-    #[inline(always)]
-    fn value(&self, x: f64, terms: usize) -> [f64; 2] {
-        let square = x * x;
-        let [mut even, mut odd, mut even_rate, mut odd_rate] = [0.0; 4];
-        for pair in (0..terms.div_ceil(2)).rev() {
-            even_rate = even_rate * square + even;
-            odd_rate = odd_rate * square + odd;
-            even = even * square + self.terms[2 * pair];
-            odd = odd * square + self.terms[2 * pair + 1];
-        }
-        // With E and O in x²: f = E + x O, f' = 2 x E' + O + 2 x² O'.
-        [even + x * odd, odd + 2.0 * (x * even_rate + square * odd_rate)]
-    }
+    // With E and O in x²: f = E + x O, f' = 2 x E' + O + 2 x² O'.
+    [even + x * odd, odd + 2.0 * (x * even_rate + square * odd_rate)]
 }
 
 impl Stepper for Gaps {
@@ -365,7 +348,7 @@ impl Stepper for Gaps {
         let earlier = |a: Root, b: Root| if b.time < a.time { b } else { a };
         while let Some(root) = self.roots.iter().copied().reduce(earlier) {
             self.hit(root, step, tally);
-            tally.event(root.gap, step.from().after(root.time).time(), root.closing_speed)?;
+            tally.event(root.gap, step.from.after(root.time).time(), root.closing_speed)?;
         }
         self.phases_now.copy_from_slice(step.phases);
         Ok(())

@@ -15,26 +15,12 @@ const SHORTEST: f64 = 1e-9;
 const KEPT: usize = 1 << 14;
 
 /// One of equal steps in time; the last may be shorter.
-#[derive(Clone, Copy)]
 pub struct Step<'a> {
-    begin: Instant,
-    /// The end of the last step.
-    end: Option<Instant>,
-    whole: f64,
-    number: u64,
+    pub from: Instant,
+    pub to: Instant,
     pub h: f64,
     /// (sin, cos) of each rate at its end.
     pub phases: &'a [(f64, f64)],
-}
-
-impl Step<'_> {
-    pub fn from(&self) -> Instant {
-        self.begin.after(self.number as f64 * self.whole)
-    }
-
-    pub fn to(&self) -> Instant {
-        self.end.unwrap_or_else(|| self.begin.after((self.number + 1) as f64 * self.whole))
-    }
 }
 
 /// Equal steps from the start of a task to its end, and the rates whose phases are wanted.
@@ -65,25 +51,23 @@ impl Steps {
         Ok(Steps { rates, begin, end, h, count: count as u64 })
     }
 
-    /// Hands on each step in turn.
     #[inline(always)]
     pub fn each<E>(&self, mut visit: impl FnMut(&Step) -> Result<(), E>) -> Result<(), E> {
         let Steps { ref rates, begin, end, h, count } = *self;
-        let whole = count.saturating_sub(1);
+        let (whole, mut from) = (count.saturating_sub(1), begin);
         for first in (0..whole).step_by(KEPT) {
             let number = (whole - first).min(KEPT as u64) as usize;
             let piece = self.tabulated(first, number);
             let phases = piece.phases.chunks_exact(rates.len()).take(number);
             for (number, phases) in (first..).zip(phases) {
-                visit(&Step { begin, end: None, whole: h, number, h, phases })?;
+                let to = begin.after((number + 1) as f64 * h);
+                visit(&Step { from, to, h, phases })?;
+                from = to;
             }
         }
         if count > 0 {
             let phases: Vec<_> = rates.iter().map(|rate| rate.sin_cos(end)).collect();
-            let from = begin.after(whole as f64 * h);
-            let last = end.since(from).max(0.0);
-            let (number, phases) = (whole, &phases[..]);
-            visit(&Step { begin, end: Some(end), whole: h, number, h: last, phases })?;
+            visit(&Step { from, to: end, h: end.since(from).max(0.0), phases: &phases })?;
         }
         Ok(())
     }
@@ -136,7 +120,7 @@ mod tests {
             let mut ends = Vec::new();
             let steps = Steps::new(task, 0.125, rates.clone()).unwrap();
             let each = steps.each(|step| -> Result<(), ()> {
-                ends.push((step.to().time(), step.phases[0].0));
+                ends.push((step.to.time(), step.phases[0].0));
                 Ok(())
             });
             let expected = (1..=number).map(|i| 0.125 * f64::from(i)).map(|t| (t, t.sin()));

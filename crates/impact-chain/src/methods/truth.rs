@@ -123,7 +123,6 @@ impl TrueMotion {
         dd(self.scenario.spacing) * m as f64
     }
 
-    /// Returns the forced response of body m and its rate.
     fn forced_motion(&self, m: usize, [_, [sin, cos]]: &TruePhases) -> [DoubleDouble; 2] {
         let [c, s] = self.forced[m];
         [c * *cos + s * *sin, self.rates[1] * (s * *cos - c * *sin)]
@@ -151,7 +150,6 @@ impl TrueMotion {
     }
 
     /// Returns d + R₁ + R₂ of a gap: the scale of its rounding.
-    #[must_use]
     pub fn scale(&self, gap: usize) -> f64 {
         self.amplitudes(gap).iter().fold(self.scenario.spacing, |sum, r| sum + r)
     }

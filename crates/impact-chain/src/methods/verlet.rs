@@ -2,9 +2,8 @@
 
 use super::bodies::Bodies;
 use super::method::Task;
-use super::rival::{Rival, Run, Stepper, run_steps};
+use super::rival::{Rival, Run, Stepper, Stop, Tally, run_steps};
 use super::steps::Step;
-use super::tally::{Stop, Tally};
 use crate::Error;
 use crate::impact::jumps;
 use fearless_simd::Simd;
@@ -55,7 +54,7 @@ impl Stepper for Flip {
             if speed > 0.0 && row.width(k) < 0.0 {
                 let jumps = jumps(speed, row.restitution, row.topology.inverse_masses(k));
                 sides.into_iter().zip(jumps).for_each(|(m, jump)| row.v[m] += jump);
-                tally.impact(k, step.to().time(), speed)?;
+                tally.impact(k, step.to.time(), speed)?;
             }
         }
         Ok(())

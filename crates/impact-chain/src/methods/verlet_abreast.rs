@@ -2,7 +2,7 @@
 
 use super::method::{Cost, Method, Sealed, Task};
 use super::steps::{Steps, check_end};
-use crate::forcing::gap_amplitudes;
+use crate::flight::length;
 use crate::impact::share_change;
 use crate::search::clock::Rate;
 use crate::topology::Topology;
@@ -10,7 +10,6 @@ use crate::vectors::vector_level;
 use crate::{Error, HitGaps, Impact, Scenario, Sink, State};
 use fearless_simd::{dispatch, f32x16, prelude::*};
 
-/// Number of chains in one register.
 const LANES: usize = 16;
 
 /// Longest row of impacts, each caused by the one before, followed within one step.
@@ -61,10 +60,8 @@ impl VerletAbreast {
         Ok(self.simulate(chains, until, None, sink)?.0)
     }
 
-    /// Runs chains likewise, and returns for each how many gaps have an impact in some steps.
-    ///
-    /// # Errors
-    /// As [`Self::run_all`].
+    /// Runs chains likewise, with the same errors; returns for each how many gaps have an impact in
+    /// some steps.
     pub fn count_gaps(
         &self,
         chains: &[Scenario],
@@ -88,17 +85,12 @@ impl VerletAbreast {
         for (number, scenario) in chains.iter().enumerate() {
             scenario.validate()?;
             scenario.check_uniform()?;
-            let Scenario { forcing, initial, .. } = first_scenario.clone();
-            let alike = forcing.len() == scenario.forcing.len()
-                && *first_scenario == Scenario { forcing, initial, ..scenario.clone() };
-            if !alike || !first_scenario.overtones.is_empty() {
+            if scenario.chain() != first_scenario.chain() || !scenario.overtones.is_empty() {
                 let problem = "verlet-abreast supports equal chains with one frequency";
                 return Err(Error::input("forcing_frequencies", problem, "use another method"));
             }
-            let gaps = gap_amplitudes(scenario);
-            let length = |cos: f64, sin: f64| (cos * cos + sin * sin).sqrt();
-            let reach =
-                |[a, b, forced_a, forced_b]: [f64; 4]| length(a, b) + length(forced_a, forced_b);
+            let gaps = scenario.gap_amplitudes();
+            let reach = |[a, b, c, d]: [f64; 4]| length([a, b]) + length([c, d]);
             if gaps.iter().any(|gap| reach(*gap) >= 1.0) {
                 may_close.push((number, gaps));
             }
@@ -158,9 +150,7 @@ struct Gap {
 /// Up to 16 chains side by side.
 #[derive(Default)]
 struct Lanes {
-    /// Length of a step, in units of time.
     h: f64,
-    /// Distance d between equilibria.
     spacing: f64,
     /// ωh, by which the free motion turns in a step.
     turn: f32,
@@ -176,7 +166,6 @@ struct Lanes {
     adjacent: Vec<[(usize, f32); 2]>,
     /// The gaps, and one more that never has an impact.
     gaps: Vec<Gap>,
-    /// The number of the chain in each lane.
     chains: Vec<usize>,
     /// A bit for each lane whose chain has not ended.
     live: u16,
@@ -190,9 +179,7 @@ struct Lanes {
     may_have_closed: Vec<(usize, u16)>,
     /// Gaps to look at in one lane, and how many impacts led to each.
     stack: Vec<(usize, u32)>,
-    /// Lanes and impacts of this step.
     step_impacts: Vec<(usize, Impact)>,
-    /// Impacts and steps so far, in all lanes.
     cost: Cost,
 }
 
@@ -248,7 +235,6 @@ impl Lanes {
         }
     }
 
-    /// Runs the chains to the last whole step.
     #[inline(always)]
     fn run<S: Simd>(&mut self, simd: S, steps: &Steps, sink: ChainSink) {
         let (mut i, mut time, mut from) = (0, 0.0, (0.0, 1.0));
@@ -264,7 +250,7 @@ impl Lanes {
                 let number = self.leap(simd, from);
                 let to = (step.phases[0].0 as f32, step.phases[0].1 as f32);
                 let mean = (0.5 * (from.0 + to.0), 0.5 * (from.1 + to.1));
-                (i, time, from) = (i + 1, step.to().time(), to);
+                (i, time, from) = (i + 1, step.to.time(), to);
                 for index in 0..number {
                     let (k, mut lanes) = self.may_have_closed[index];
                     while lanes != 0 {
@@ -365,7 +351,6 @@ impl Lanes {
         }
     }
 
-    /// Hands on the impacts of a step.
     fn report(&mut self, sink: ChainSink) {
         self.step_impacts.sort_by(|a, b| a.1.time.total_cmp(&b.1.time));
         for (lane, impact) in std::mem::take(&mut self.step_impacts) {
@@ -378,7 +363,6 @@ impl Lanes {
     }
 }
 
-/// Evaluates the sine of a small angle.
 #[inline(always)]
 fn sine(x: f32) -> f32 {
     let y = x * x;

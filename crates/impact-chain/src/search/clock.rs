@@ -97,9 +97,9 @@ impl Rate {
         // mantissa · INVERSE_TAU, five limbs, in units of 2^(exponent − 256).
         let mut product = [0u64; 5];
         let mut carry = 0u128;
-        for (limb, out) in INVERSE_TAU.iter().zip(product.iter_mut()) {
+        for (limb, sum) in INVERSE_TAU.iter().zip(product.iter_mut()) {
             carry += u128::from(*limb) * u128::from(mantissa);
-            *out = carry as u64;
+            *sum = carry as u64;
             carry >>= 64;
         }
         product[4] = carry as u64;
@@ -118,8 +118,8 @@ impl Rate {
     /// The product of 128 and 192 bits is taken modulo one turn, without what lies below 2^-80
     /// turns, so the error is below 2^-63 turns up to [`LATEST`], whatever the history of the run.
     #[inline(always)]
-    pub fn turn(self, at: Instant) -> u64 {
-        let t = at.0 as u128;
+    pub fn turn(self, instant: Instant) -> u64 {
+        let t = instant.0 as u128;
         let (t0, t1) = (u128::from(t as u64), u128::from((t >> 64) as u64));
         let [r0, r1, r2] = self.0.map(u128::from);
         // In units of 2^-80 turns, modulo 2^48 turns.
@@ -132,8 +132,8 @@ impl Rate {
     }
 
     #[inline(always)]
-    pub fn sin_cos(self, at: Instant) -> (f64, f64) {
-        sin_cos_turn(self.turn(at))
+    pub fn sin_cos(self, instant: Instant) -> (f64, f64) {
+        sin_cos_turn(self.turn(instant))
     }
 }
 

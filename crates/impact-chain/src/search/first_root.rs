@@ -161,7 +161,7 @@ mod tests {
     fn dips_that_touch_zero_are_roots_below_the_band_alone() {
         let search = Search::new(Frequencies::new(1.0, [1.5]));
         let frequencies = &search.frequencies;
-        let mut tried = [0; 3];
+        let (mut tried, mut counted) = ([0; 3], 0);
         for i in 0..4000 {
             let mut normals = NormalPairs::new("dips", Seed(1), i);
             let ([q, v], [x, y]) = (normals.pair(), normals.pair());
@@ -188,6 +188,7 @@ mod tests {
                     let is_root = matches!(next, Next::Root { .. });
                     let case = if lowest < -2.5 { 0 } else { 1 + usize::from(lowest < 2.5) };
                     tried[case] += 1;
+                    counted += work.undecided * u64::from(lowest > 0.0);
                     let is_right = match case {
                         0 => is_root && end < s || lowest > -6.0 && work.undecided > 0,
                         1 => end > s,
@@ -199,7 +200,8 @@ mod tests {
                 }
             }
         }
-        assert!(tried.iter().all(|number| *number > 1000), "{tried:?}");
+        // Of the dips 1.5 margins above zero many are within the band.
+        assert!(counted > 200 && tried.iter().all(|number| *number > 1000), "{tried:?}");
     }
 
     /// M₂ is that of the slowest part, and a speed counts from v² = 4 M₂ (f − q) on.

@@ -5,7 +5,6 @@ use super::pair::Pair;
 use super::trig::rough_angles;
 
 /// One sinusoid R cos(νs + θ), as value u and quadrature u̇/ν at s = 0.
-#[derive(Clone, Copy, Debug)]
 struct Part {
     frequency: f64,
     /// θ − π.
@@ -66,7 +65,6 @@ pub fn next_window<const M: usize>(
 
 impl Part {
     /// Returns the time from `s` to the beginning of the next window; 0 in a window.
-    #[inline]
     fn wait(&self, s: f64) -> f64 {
         const TURN: f64 = std::f64::consts::TAU;
         if self.half_width >= 3.5 {

@@ -39,8 +39,8 @@ fn scenarios(chain: &Chain, factor: f64) -> Vec<Scenario> {
 /// Windows that follow one another: they tell impacts apart by time, and gaps by their number.
 fn windows(length: f64) -> Vec<Protocol> {
     let number = (END / length) as u32;
-    let at = |i: u32| Protocol { transient: f64::from(i) * length, window: length };
-    (0..number).map(at).collect()
+    let window = |i: u32| Protocol { transient: f64::from(i) * length, window: length };
+    (0..number).map(window).collect()
 }
 
 type Runs = Vec<Option<Realisation>>;
@@ -69,9 +69,9 @@ fn impacts_are_those_of_the_engine() {
                     continue;
                 };
                 impacts += expected.total.impacts;
-                let all = |of: Counts| (of.distinct, of.impacts, of.masses, of.total);
+                let compared = |of: Counts| (of.distinct, of.impacts, of.masses, of.total);
                 let counts = realisation.counts();
-                assert_eq!(all(counts), all(expected), "{chain:?} {factor} {place}");
+                assert_eq!(compared(counts), compared(expected), "{chain:?} {factor} {place}");
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Compares the next impact from one state with the reference, before chaos has had time to act.
 
+use crate::given;
 use crate::reference::{Dd, Reference};
-use crate::{first, given};
 use impact_chain::rounding::TIME;
 use impact_chain::{Boundary, Chain, End, Engine, Event, Initial, Overtone, Scenario};
 use impact_numerics::random::{NormalPairs, Seed};
@@ -31,7 +31,8 @@ struct Tally {
 fn bounds(start: &Reference, scenario: &Scenario, gap: usize, speed: f64) -> Option<[f64; 2]> {
     let w = scenario.natural_frequency;
     // Where Δ is zero, Δ'' is ω² d and the forcing of both neighbours at most.
-    let force = |j: usize| scenario.components().map(move |(_, all)| all[j][0].hypot(all[j][1]));
+    let force =
+        |j: usize| scenario.components().map(move |(_, pairs)| pairs[j][0].hypot(pairs[j][1]));
     let forces: f64 = start.sides(gap).into_iter().flatten().flat_map(force).sum();
     let near_root = w * w * scenario.spacing * (1.0 + 1e-4) + forces;
     let (rounding, bend) = (f64::EPSILON * start.scale(gap), start.gap(gap).bend().min(near_root));
@@ -45,7 +46,7 @@ fn hold(scenario: &Scenario, until: f64, tally: &mut Tally) {
     let start = Reference::new(scenario);
     let Ok(theirs) = start.clone().step(Dd::from(until)) else { return };
     let mut engine = Engine::new(scenario).unwrap();
-    let ours = first(&mut engine, until);
+    let ours = engine.next_impact(until).unwrap();
     tally.evaluations += engine.counters().evaluations;
     tally.segments += 1;
     let allowed = |gap, speed| bounds(&start, scenario, gap, speed);
@@ -71,7 +72,8 @@ fn hold(scenario: &Scenario, until: f64, tally: &mut Tally) {
             // Allowed only if one of the two is a graze, or both fall together.
             let ours = ours.map(|a| (a.gap, a.closing_speed, Dd::from(a.time)));
             let both = [ours, theirs.map(|b| (b.gap, b.closing_speed.hi, b.time))];
-            let errors = both.iter().flatten().map(|hit| allowed(hit.0, hit.1).map(|all| all[0]));
+            let errors =
+                both.iter().flatten().map(|hit| allowed(hit.0, hit.1).map(|bounds| bounds[0]));
             let [a, b] = both.map(|hit| hit.map_or(Dd::from(until), |hit| hit.2));
             // Without a sum one of them grazes.
             let room = errors.sum::<Option<f64>>().map(|sum| sum + 0.5 * until * f64::EPSILON);
@@ -164,7 +166,7 @@ fn components_that_nearly_cancel_are_soon_passed() {
     parts.overtones.push(Overtone { frequency, amplitudes: vec![[3.2e-6, -5.4e-6]] });
     let [(sum, _), (hit, rate)] = [whole, parts].map(|scenario| {
         let mut engine = Engine::new(&scenario).unwrap();
-        let hit = first(&mut engine, 1e6).expect("it closes in the end");
+        let hit = engine.next_impact(1e6).unwrap().expect("it closes in the end");
         (hit, engine.counters().evaluations as f64 / hit.time)
     });
     let error = (hit.time - sum.time).abs() * sum.closing_speed;

@@ -28,18 +28,9 @@ fn unforced(free: &[[f64; 2]], restitution: f64) -> Scenario {
     Scenario { restitution, ..given(free.to_vec(), vec![[0.0; 2]; free.len()]) }
 }
 
-fn run(engine: &mut Engine, until: f64) -> Vec<Impact> {
-    engine.impacts(until).unwrap()
-}
-
-fn first(engine: &mut Engine, until: f64) -> Option<Impact> {
-    engine.next_impact(until).unwrap()
-}
-
-/// An engine that has run a scenario, and its impacts.
 fn ran(scenario: &Scenario, until: f64) -> (Engine, Vec<Impact>) {
     let mut engine = Engine::new(scenario).unwrap();
-    let impacts = run(&mut engine, until);
+    let impacts = engine.impacts(until).unwrap();
     (engine, impacts)
 }
 

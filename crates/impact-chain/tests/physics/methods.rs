@@ -1,6 +1,6 @@
 //! Tests the rivals of the engine: each converges at its order, and fails as documented.
 
-use crate::{drawn, given, run, unforced};
+use crate::{drawn, given, unforced};
 use impact_chain::methods::{
     Advancement, Certified, Cost, CountedSteps, Method, MoreauJean, Penalty, RungeKutta, Sampled,
     Task, Verlet, VerletAbreast,
@@ -16,7 +16,6 @@ fn chain(masses: usize, boundary: Boundary, sigma: f64, index: u64) -> Scenario 
     drawn(&chain, sigma * spacing * w * w, "methods", index)
 }
 
-/// The impacts of a method up to its end or error.
 type Trace = (Vec<Impact>, Result<Cost, Error>);
 
 fn trace(method: &dyn Method, scenario: &Scenario, until: f64) -> Trace {
@@ -110,7 +109,7 @@ fn runs_stop_and_go_on() {
         let mut engine = Engine::new(&scenario).unwrap();
         engine.advance(30.0).unwrap();
         let start = engine.state(30.0).unwrap();
-        let exact = run(&mut engine, 40.0);
+        let exact = engine.impacts(40.0).unwrap();
         let more: Box<dyn Method> = Box::new(Sampled { step: 0.1, least_rebound: 0.0 });
         for method in methods(|size| size).into_iter().chain([more]) {
             let name = method.name();
@@ -137,7 +136,7 @@ fn runs_stop_and_go_on() {
 #[test]
 fn vectors_change_no_bits() {
     let traces = || {
-        let chains = [Boundary::Walls, Boundary::Ring].map(|at| chain(70, at, 0.3, 1));
+        let chains = [Boundary::Walls, Boundary::Ring].map(|boundary| chain(70, boundary, 0.3, 1));
         let runs = methods(|size| size)
             .into_iter()
             .flat_map(|method| chains.each_ref().map(|scenario| trace(&*method, scenario, 10.0).0));

@@ -1,7 +1,7 @@
-//! Starts runs from a state, and from places and velocities in a file.
+//! Starts runs from a state, and from places and velocities in a file, and ends them.
 
-use crate::drawn;
-use impact_chain::{Chain, Engine, Scenario, Start, State};
+use crate::{drawn, unforced};
+use impact_chain::{Chain, Engine, LATEST, Scenario, Start, State};
 
 #[test]
 fn the_state_at_the_start_is_that_of_the_engine() {
@@ -92,4 +92,60 @@ fn places_are_constant_loads_and_gaps_of_any_width() {
         let read = Scenario::from_json(&json).map(|scenario| scenario.places.unwrap());
         assert_eq!(read.unwrap_or_default(), places, "{fields}");
     }
+}
+
+/// The end of a run is a time of the clock, also where no gap can ever close.
+#[test]
+fn an_end_that_is_no_time_is_refused() {
+    let mut engine = Engine::new(&unforced(&[[0.1, 0.0]], 1.0)).unwrap();
+    for until in [f64::INFINITY, f64::NAN, 1e15, LATEST.next_up(), f64::NEG_INFINITY] {
+        let refused = engine.next_impact(until).unwrap_err().to_string();
+        assert!(refused.starts_with("until: "), "{refused}");
+    }
+    assert!(engine.state(LATEST).is_ok() && engine.state(LATEST.next_up()).is_err());
+    assert_eq!(engine.impacts(LATEST), Ok(vec![]));
+    let mut engine = Engine::new(&unforced(&[[1.0, 1.5]], 1.0)).unwrap();
+    let time = engine.next_impact(9.0).unwrap().unwrap().time;
+    assert!(engine.advance(time.next_down()).is_err() && engine.advance(time).is_ok());
+}
+
+#[test]
+fn an_impact_is_within_a_run_until_its_time() {
+    let mut engine = Engine::new(&drawn(&Chain::default(), 0.3, "end", 0)).unwrap();
+    for number in 0..200 {
+        let before = engine.clone();
+        let hit = engine.next_impact(50.0).unwrap().unwrap();
+        assert_eq!(before.clone().next_impact(hit.time), Ok(Some(hit)), "{number}");
+        assert_eq!(before.clone().next_impact(hit.time.next_down()), Ok(None), "{number}");
+    }
+}
+
+/// Two gaps that close at the start are simultaneous, and both are counted; one is alone.
+#[test]
+fn impacts_at_the_start_are_simultaneous_with_impacts_alone() {
+    let starts: [(&[[f64; 2]], u64, u64); 4] = [
+        (&[[1.0, 1.5]], 1, 0),
+        (&[[-1.0, 0.0], [-2.0, -0.5]], 3, 2),
+        (&[[-1.0, -0.5], [-2.0, -1.5]], 4, 4),
+        (&[[-1.0, -0.5], [1.0, 0.5]], 2, 0),
+    ];
+    for (parts, impacts, ties) in starts {
+        let mut engine = Engine::new(&unforced(parts, 1.0)).unwrap();
+        engine.advance(0.0).unwrap();
+        let counters = engine.counters();
+        assert_eq!((counters.impacts, counters.simultaneous), (impacts, ties), "{parts:?}");
+    }
+}
+
+/// Mass 2 hits mass 1, whose gap waits without a search 1e-10 before the wall: no past frame.
+#[test]
+fn a_gap_that_waits_long_is_where_its_masses_are() {
+    let (amplitude, phase) = (1.0 - 1e-10, 1.0_f64);
+    let parts = [amplitude, 2.0].map(|r| [-r * phase.cos(), -r * phase.sin()]);
+    let hits = Engine::new(&unforced(&parts, 1.0)).unwrap().impacts(1.1).unwrap();
+    let [first, second] = [hits[0], hits[1]];
+    assert_eq!([first.gap, second.gap], [1, 0], "{hits:?}");
+    // At 2e-10 it takes the speed of mass 2, v² = 8e-10, and loses 2 · 2e-10 to the spring.
+    assert!((second.closing_speed - 2e-5).abs() < 1e-9, "{hits:?}");
+    assert!((second.time - first.time - (8.0f64.sqrt() - 2.0) * 1e-5).abs() < 1e-9);
 }

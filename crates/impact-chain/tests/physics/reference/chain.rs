@@ -35,12 +35,8 @@ impl Reference {
     /// Sets a scenario at t = 0, every double taken as the exact number that it is.
     pub fn new(scenario: &Scenario) -> Self {
         let w = Dd::from(scenario.natural_frequency);
-        let overtones = scenario.overtones.iter().map(|o| (o.frequency, &o.amplitudes));
-        let components: Vec<(Dd, &Vec<[f64; 2]>)> =
-            std::iter::once((scenario.forcing_frequency, &scenario.forcing))
-                .chain(overtones)
-                .map(|(big_w, amplitudes)| (Dd::from(big_w), amplitudes))
-                .collect();
+        let components: Vec<_> =
+            scenario.components().map(|(big_w, pairs)| (Dd::from(big_w), pairs)).collect();
         let masses: Vec<Vec<[Dd; 2]>> = (0..scenario.forcing.len())
             .map(|j| {
                 let mut mass = vec![[Dd::ZERO; 2]];
