@@ -15,6 +15,7 @@ pub enum Boundary {
 
 impl Boundary {
     /// Returns the number of gaps of n masses, the N of Sec. 3: n + 1 between walls, n on a ring.
+    #[must_use]
     pub fn gaps(self, masses: usize) -> usize {
         match self {
             Boundary::Walls => masses + 1,
@@ -73,6 +74,7 @@ impl Default for Chain {
 
 impl Chain {
     /// Returns its number of gaps, N.
+    #[must_use]
     pub fn gaps(&self) -> usize {
         self.boundary.gaps(self.masses)
     }

@@ -5,6 +5,8 @@
 use crate::search::outcome::Graze;
 use crate::topology::Topology;
 use crate::{Chain, End, Engine, Error, Event, Impact, LATEST, check_range};
+#[cfg(feature = "serde")]
+use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow::{Break, Continue};
 
 /// The δ below which impacts of adjacent gaps are counted as close, whatever ω is.
@@ -18,7 +20,7 @@ const CHECK_EVERY: u64 = 4096;
 
 /// The window (T, T + W] in which gaps with an impact are counted (ours: Sec. 2 has none).
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Deserialize, serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Protocol {
     /// Transient T that is dropped, in the scenario's unit of time.
     pub transient: f64,
@@ -34,6 +36,7 @@ impl Default for Protocol {
 
 impl Protocol {
     /// Returns the end of the window, T + W.
+    #[must_use]
     pub fn end(&self) -> f64 {
         self.transient + self.window
     }
@@ -41,7 +44,7 @@ impl Protocol {
 
 /// Counts of realisations in order, for each window; those that follow one another can be joined.
 #[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Deserialize, serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Counts {
     /// Different gaps with an impact, by window and realisation, or `None` if the run ended before
     /// the window.
@@ -62,7 +65,7 @@ pub struct Counts {
 
 /// Impacts of whole runs, transients included.
 #[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Deserialize, serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Total {
     /// Their number.
     pub impacts: u64,
@@ -146,6 +149,7 @@ fn rising(times: impl Iterator<Item = f64>) -> Vec<f64> {
 
 impl Watch {
     /// Creates the counts of a run of this chain, all of them zero.
+    #[must_use]
     pub fn new(chain: &Chain, windows: &[Protocol]) -> Self {
         let gaps = chain.gaps();
         let transients = rising(windows.iter().map(|window| window.transient));
@@ -287,6 +291,7 @@ impl Watch {
     }
 
     /// Returns which gaps had an impact in one of the windows, or `None` for another window.
+    #[must_use]
     pub fn gaps_hit(&self, window: &Protocol) -> Option<Vec<bool>> {
         self.windows.iter().find(|one| *one == window)?;
         let transient = self.transients.partition_point(|time| *time < window.transient);

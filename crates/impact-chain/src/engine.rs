@@ -147,6 +147,7 @@ impl Engine {
 
     /// Returns the free parts (a_j, b_j) of the masses 1..n, from the time of the start on; a
     /// cluster shares one.
+    #[must_use]
     pub fn free_parts(&self) -> Vec<[f64; 2]> {
         call!(&self.0, simulation => simulation.free_parts())
     }
@@ -157,6 +158,7 @@ impl Engine {
     }
 
     /// Returns the time of the last event; before the first, that of the start.
+    #[must_use]
     pub fn time(&self) -> f64 {
         call!(&self.0, simulation => simulation.event_time)
     }
@@ -167,6 +169,7 @@ impl Engine {
     }
 
     /// Returns the first dip of which rounding could not tell whether it is an impact, or `None`.
+    #[must_use]
     pub fn first_graze(&self) -> Option<Graze> {
         call!(&self.0, simulation => simulation.first_graze)
     }

@@ -57,6 +57,7 @@ impl std::error::Error for Error {}
 
 impl Error {
     /// Returns the name of the field or argument that is refused, or `None` if a run was ended.
+    #[must_use]
     pub fn field(&self) -> Option<&str> {
         match self {
             Error::Input { field, .. } | Error::Overlap { field, .. } => Some(field),

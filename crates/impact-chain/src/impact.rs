@@ -42,6 +42,7 @@ pub enum Event {
 
 impl Event {
     /// Returns the time of the event, in the units of the scenario.
+    #[must_use]
     pub fn time(&self) -> f64 {
         match self {
             Event::Impact(Impact { time, .. }) | Event::Graze(Graze { time, .. }) => *time,

@@ -11,6 +11,8 @@
 use impact_numerics::bootstrap;
 use impact_numerics::estimates::LEVEL;
 use impact_numerics::statistics::Estimate;
+#[cfg(feature = "serde")]
+use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
 
 const RESAMPLES: u64 = 400;
@@ -38,7 +40,7 @@ impl Parts {
 
 /// Shares of chains at one σ: at the end, in the peak of the bulk, and in the likeliest between.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Deserialize, serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Heights {
     /// Standard deviation σ of the amplitudes.
     pub sigma: f64,
@@ -190,7 +192,7 @@ impl Sample<'_> {
 /// Where the most likely count passes from one part to another, with bootstrap errors, each `None`
 /// where the sample shows none; where the mode surely climbs there is a clearance only.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Deserialize, serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Passing {
     /// The σ at which both are equally likely.
     pub sigma: Option<Estimate>,
@@ -215,6 +217,7 @@ impl Passing {
 
     /// Returns whether the mode surely jumps (true) or surely climbs (false), or `None` if neither
     /// is sure.
+    #[must_use]
     pub fn is_jump(&self) -> Option<bool> {
         let [low, high] = self.clearance?.interval;
         (low > 0.0 || high < 0.0).then_some(low > 0.0)
@@ -223,7 +226,7 @@ impl Passing {
 
 /// The most likely count in one window, against σ.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Deserialize, serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct ModeJump {
     /// For each σ the shares of all gaps, of the bulk and of the numbers between.
     pub rows: Vec<Heights>,
@@ -245,6 +248,7 @@ pub struct Histogram {
 }
 
 /// Measures the jump in samples at rising σ.
+#[must_use]
 pub fn mode_jump(samples: &[Sample<'_>], histogram: Histogram) -> ModeJump {
     let Histogram { gaps, half_width } = histogram;
     let read = |halves: &dyn Fn(&Sample<'_>) -> [Vec<u32>; 2]| {

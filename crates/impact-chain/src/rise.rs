@@ -8,10 +8,12 @@ use impact_numerics::estimates::{LEVEL, with_error};
 use impact_numerics::statistics::{
     Estimate, count_quantile, last_rise, mean, mode, standard_error,
 };
+#[cfg(feature = "serde")]
+use serde::{Deserialize, Serialize};
 
 /// Counts in one window, against σ.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Deserialize, serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Curve {
     /// The window.
     pub protocol: Protocol,
@@ -23,7 +25,7 @@ pub struct Curve {
 
 /// The mean of a sample.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Deserialize, serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Mean {
     /// The mean.
     pub value: f64,
@@ -40,6 +42,7 @@ impl Mean {
 
     /// Returns the mean with its standard error and the normal interval, or `None` if it has no
     /// error.
+    #[must_use]
     pub fn estimate(&self) -> Option<Estimate> {
         Some(with_error(self.value, self.error?))
     }
@@ -47,7 +50,7 @@ impl Mean {
 
 /// Counts at one σ, of chains or their pieces. The paper discards those without an impact.
 #[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Deserialize, serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct RisePoint {
     /// Standard deviation σ of the amplitudes.
     pub sigma: f64,
@@ -94,6 +97,7 @@ pub struct CurveData<'a> {
 impl Curve {
     /// Computes the curve of a window from the counts at each σ.
     /// Panics if the counts have no window of this number, or a count is above `gaps`.
+    #[must_use]
     pub fn new(data: &CurveData) -> Curve {
         let &CurveData { window_index, protocol, sigmas, counts, compared, gaps, seed } = data;
         let mut distinct: Vec<&[Option<u32>]> = Vec::with_capacity(counts.len());
@@ -133,6 +137,7 @@ pub struct Column {
 impl RisePoint {
     /// Computes the row of a σ, without intervals.
     /// Panics if the counts have no such window, or one is above the largest.
+    #[must_use]
     pub fn new(sigma: f64, counts: &Counts, column: Column) -> RisePoint {
         let Column { window_index, largest } = column;
         let mut histogram = vec![0; largest + 1];
@@ -169,7 +174,7 @@ pub const ONSET: f64 = 0.05;
 /// Places of the rise on the σ axis: each is the last rise of a curve through a level, or `None` if
 /// the curve does not rise through it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Deserialize, serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Rise<T = Estimate> {
     /// Half height: the mean over realisations with an impact reaches N/2.
     pub half_height: Option<T>,

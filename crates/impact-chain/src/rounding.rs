@@ -23,8 +23,12 @@ pub const REPORTED: f64 = 1e-9;
 pub const TIME: f64 = 66.3;
 
 /// Returns E = C ε S at the start, with a bound of S over all gaps: rounding may change the width
-/// of a gap by E, and the time of an impact at closing speed v by E/v. Panics if a list of the
-/// scenario is shorter than its number of masses asks for. [`Scenario::validate`] refuses these.
+/// of a gap by E, and the time of an impact at closing speed v by E/v.
+///
+/// # Panics
+/// Panics if a list of the scenario is shorter than its number of masses asks for.
+/// [`Scenario::validate`] refuses these.
+#[must_use]
 pub fn gap_error(scenario: &Scenario) -> f64 {
     let amplitudes = (0..scenario.forcing.len()).map(|j| amplitude(scenario, j));
     let largest = amplitudes.fold(0.0, f64::max);

@@ -121,6 +121,7 @@ impl Scenario {
 
     /// Returns the place of equilibrium of body m: a mass, or a wall (0 or n + 1).
     /// Panics if `places` has no place of this body.
+    #[must_use]
     pub fn place(&self, m: usize) -> f64 {
         self.places.as_ref().map_or(m as f64 * self.spacing, |places| places[m])
     }
@@ -166,6 +167,7 @@ impl Scenario {
     }
 
     /// Returns the number of gaps, N.
+    #[must_use]
     pub fn gaps(&self) -> usize {
         self.boundary.gaps(self.forcing.len())
     }

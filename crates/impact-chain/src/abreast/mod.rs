@@ -65,6 +65,7 @@ pub struct Counting {
 
 impl Counting {
     /// Prepares runs of a chain through the windows that end by `until`.
+    #[must_use]
     pub fn new(chain: &Chain, windows: &[Protocol], until: f64) -> Counting {
         let abreast = Abreast::new(chain, windows, until);
         Counting { chain: chain.clone(), windows: windows.to_vec(), until, abreast }
@@ -105,6 +106,7 @@ impl Abreast {
     /// no windows. Returns `None` if all of them are left to the engine: with r near 0, where
     /// masses stick, r = 1, where it keeps the energy, rings of one or two masses, and very long
     /// runs.
+    #[must_use]
     pub fn new(chain: &Chain, windows: &[Protocol], until: f64) -> Option<Abreast> {
         let frequencies = [chain.natural_frequency, chain.forcing_frequency];
         let mut watch = Watch::new(chain, windows);
@@ -133,6 +135,7 @@ impl Abreast {
     }
 
     /// Returns how many realisations of a chain are best simulated together.
+    #[must_use]
     pub fn batch_size(chain: &Chain) -> usize {
         (MASSES / chain.masses.max(1)).clamp(1, 16)
     }
@@ -208,6 +211,7 @@ impl Realisation {
 
     /// Returns free parts (a_j, b_j) of the masses at the end that give the same gaps; on a ring
     /// those of the first mass are zero.
+    #[must_use]
     pub fn free_parts(&self, chain: &Chain) -> Vec<[f64; 2]> {
         let first = usize::from(chain.boundary == Boundary::Ring);
         let mut sum = [0.0; 2];

@@ -25,6 +25,7 @@ pub struct Cost {
 
 impl Cost {
     /// Returns the evaluations of an impact, or `None` without impacts.
+    #[must_use]
     pub fn evaluations_per_impact(&self) -> Option<f64> {
         (self.impacts > 0).then(|| self.evaluations as f64 / self.impacts as f64)
     }

@@ -150,6 +150,7 @@ impl TrueMotion {
     }
 
     /// Returns d + R₁ + R₂ of a gap: the scale of its rounding.
+    #[must_use]
     pub fn scale(&self, gap: usize) -> f64 {
         self.amplitudes(gap).iter().fold(self.scenario.spacing, |sum, r| sum + r)
     }
