@@ -11,7 +11,7 @@ use std::ops::ControlFlow::{self, Break, Continue};
 /// The simulation of one scenario, from event to event.
 ///
 /// A run ends at a time `until`, or earlier; the next call goes on from there. An event whose time
-/// is `until` is within the run. All that run have the errors of [`run`](Engine::run).
+/// is `until` is within the run.
 #[derive(Clone, Debug)]
 pub struct Engine(Components);
 
@@ -64,6 +64,9 @@ impl Engine {
     }
 
     /// Returns the further impacts up to time `until`, in order.
+    ///
+    /// # Errors
+    /// Those of [`run`](Engine::run).
     pub fn impacts(&mut self, until: f64) -> Result<Vec<Impact>, Error> {
         let mut impacts = Vec::new();
         self.observe(until, &mut |event, _| {
@@ -77,6 +80,9 @@ impl Engine {
 
     /// Returns the next impact up to time `until`, or `None` if there is no impact; the run stops
     /// right after it.
+    ///
+    /// # Errors
+    /// Those of [`run`](Engine::run).
     pub fn next_impact(&mut self, until: f64) -> Result<Option<Impact>, Error> {
         let mut next = None;
         self.observe(until, &mut |event, _| match event {
@@ -90,6 +96,9 @@ impl Engine {
     }
 
     /// Runs until time `until`; [`state`](Engine::state) then tells where the masses are.
+    ///
+    /// # Errors
+    /// Those of [`run`](Engine::run).
     pub fn advance(&mut self, until: f64) -> Result<(), Error> {
         self.observe(until, &mut |_, _| Continue(())).map(drop)
     }
@@ -126,6 +135,9 @@ impl Engine {
 
     /// Returns the time of the next event up to `until`, or `None` if there is no event, without
     /// going there. A gap that then closes without speed may leave no event.
+    ///
+    /// # Errors
+    /// Those of [`run`](Engine::run).
     pub fn next_event_time(&mut self, until: f64) -> Result<Option<f64>, Error> {
         call!(&mut self.0, simulation => simulation.next_time(simulation.end(until)?))
     }
@@ -153,6 +165,9 @@ impl Engine {
     }
 
     /// Returns the gaps in contact and their contact forces (≥ 0) at a time up to the next event.
+    ///
+    /// # Errors
+    /// Those of [`state`](Engine::state).
     pub fn contacts(&self, time: f64) -> Result<Vec<(usize, f64)>, Error> {
         call!(&self.0, simulation => simulation.contacts(time))
     }

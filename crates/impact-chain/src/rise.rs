@@ -96,6 +96,8 @@ pub struct CurveData<'a> {
 
 impl Curve {
     /// Computes the curve of a window from the counts at each σ.
+    ///
+    /// # Panics
     /// Panics if the counts have no window of this number, or a count is above `gaps`.
     #[must_use]
     pub fn new(data: &CurveData) -> Curve {
@@ -136,6 +138,8 @@ pub struct Column {
 
 impl RisePoint {
     /// Computes the row of a σ, without intervals.
+    ///
+    /// # Panics
     /// Panics if the counts have no such window, or one is above the largest.
     #[must_use]
     pub fn new(sigma: f64, counts: &Counts, column: Column) -> RisePoint {

@@ -28,8 +28,11 @@ pub(crate) const AT_REST: f64 = 1e-12;
 const UNITS: f64 = 16.0;
 
 impl State {
-    /// Returns the state of a scenario at t = 0. Panics if `places`, or the amplitudes of an
-    /// overtone, are fewer than the scenario's bodies. [`Scenario::validate`] refuses these.
+    /// Returns the state of a scenario at t = 0.
+    ///
+    /// # Panics
+    /// Panics if `places`, or the amplitudes of an overtone, are fewer than the scenario's bodies.
+    /// [`Scenario::validate`] refuses these.
     pub fn from_scenario(scenario: &Scenario) -> State {
         let w = scenario.natural_frequency;
         let mut state = State { time: 0.0, positions: Vec::new(), velocities: Vec::new() };

@@ -19,6 +19,7 @@ impl Topology {
     }
 
     /// Returns the number of gap k in results: 0..=n between walls, 1..=n on a ring.
+    #[inline]
     pub fn label(&self, k: usize) -> usize {
         match self.boundary {
             Boundary::Walls => k,
@@ -26,6 +27,7 @@ impl Topology {
         }
     }
 
+    #[inline]
     pub fn sides(&self, k: usize) -> [usize; 2] {
         match self.boundary {
             Boundary::Walls => [k, k + 1],
@@ -34,6 +36,7 @@ impl Topology {
     }
 
     /// Returns the gaps (before, after) that share a mass with gap k.
+    #[inline]
     pub fn adjacent(&self, k: usize) -> [Option<usize>; 2] {
         let last = self.gaps() - 1;
         match self.boundary {
@@ -46,15 +49,18 @@ impl Topology {
     }
 
     /// Lists the gaps that share a mass with gap k, each once.
+    #[inline]
     pub fn near(&self, k: usize) -> impl Iterator<Item = usize> + Clone + use<> {
         let [before, after] = self.adjacent(k);
         before.into_iter().chain(after.filter(|_| before != after))
     }
 
+    #[inline]
     pub fn is_wall(&self, m: usize) -> bool {
         m == 0 || m > self.masses
     }
 
+    #[inline]
     pub fn inverse_masses(&self, k: usize) -> [f64; 2] {
         self.sides(k).map(|m| if self.is_wall(m) { 0.0 } else { 1.0 })
     }

@@ -52,6 +52,7 @@ pub fn ratio(pairs: &[[f64; 2]]) -> Option<Estimate> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::random::{NormalPairs, Seed};
 
     /// Returns whether an estimate has this value and error, and their normal interval, to nine
     /// digits.
@@ -75,6 +76,20 @@ mod tests {
         // Without each: 5/3, 1 and 2, whose deviations from 14/9 are 1, −5 and 4 ninths.
         let quotient = ratio(&[[1.0, 1.0], [3.0, 1.0], [2.0, 2.0]]).unwrap();
         assert!(near(quotient, [1.5, 28.0_f64.sqrt() / 9.0]), "{quotient:?}");
+    }
+
+    /// Student's t with 49 degrees of freedom is within 1.96 with a probability of 0.944: 944 of
+    /// 1000 expected, seven at one deviation.
+    #[test]
+    fn intervals_of_means_cover_as_promised() {
+        let covers = |index: &u64| {
+            let mut normals = NormalPairs::new("coverage", Seed(2), *index);
+            let sample: Vec<f64> = (0..25).flat_map(|_| normals.pair()).collect();
+            let [low, high] = average(&sample).unwrap().interval;
+            low < 0.0 && high > 0.0
+        };
+        let covered = (0..1000).filter(covers).count();
+        assert!((920..968).contains(&covered), "{covered}");
     }
 
     #[test]

@@ -50,15 +50,18 @@ impl Bodies {
         Ok(row)
     }
 
+    #[inline]
     pub fn width_at(&self, k: usize, u: &[f64]) -> f64 {
         let [left, right] = self.topology.sides(k);
         self.spacing + (u[right] - u[left])
     }
 
+    #[inline]
     pub fn width(&self, k: usize) -> f64 {
         self.width_at(k, &self.u)
     }
 
+    #[inline]
     pub fn rate(&self, k: usize) -> f64 {
         let [left, right] = self.topology.sides(k);
         self.v[right] - self.v[left]

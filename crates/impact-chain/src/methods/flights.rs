@@ -13,6 +13,7 @@ const ROUNDING: f64 = 1e-12;
 
 /// Returns whether a gap of this width and rate is not below zero, or by rounding only, as one just
 /// hit.
+#[inline]
 pub fn is_open(width: f64, rate: f64, spacing: f64) -> bool {
     width >= 0.0 || rate >= 0.0 && width >= -ROUNDING * spacing
 }

@@ -42,8 +42,7 @@ pub struct Task<'a> {
     pub until: f64,
 }
 
-/// A way to simulate a chain. Only this crate has some: another may not rely on their parts. All
-/// that run have the errors of [`run`](Method::run).
+/// A way to simulate a chain. Only this crate has some: another may not rely on their parts.
 pub trait Method: Sealed + Sync {
     /// Returns the name, as in `trace --method`, e.g. "verlet".
     fn name(&self) -> &'static str;
@@ -60,6 +59,9 @@ pub trait Method: Sealed + Sync {
     fn run(&self, task: Task, sink: Sink) -> Result<Cost, Error>;
 
     /// Returns the first impact, or `None` if there is no impact.
+    ///
+    /// # Errors
+    /// Those of [`run`](Method::run).
     fn first(&self, task: Task) -> Result<Option<Impact>, Error> {
         let mut first = None;
         self.run(task, &mut |impact| {
@@ -70,6 +72,9 @@ pub trait Method: Sealed + Sync {
     }
 
     /// Returns all impacts, in order.
+    ///
+    /// # Errors
+    /// Those of [`run`](Method::run).
     fn impacts(&self, task: Task) -> Result<Vec<Impact>, Error> {
         let mut impacts = Vec::new();
         self.run(task, &mut |impact| {

@@ -60,8 +60,10 @@ impl VerletAbreast {
         Ok(self.simulate(chains, until, None, sink)?.0)
     }
 
-    /// Runs chains likewise, with the same errors; returns for each how many gaps have an impact in
-    /// some steps.
+    /// Runs chains likewise, and returns for each how many gaps have an impact in some steps.
+    ///
+    /// # Errors
+    /// As [`Self::run_all`].
     pub fn count_gaps(
         &self,
         chains: &[Scenario],

@@ -7,6 +7,7 @@ use super::outcome::{Counters, Next};
 mod tests;
 
 /// Returns the first root h > 0 of f + g h − ½ K h², f ≥ 0; `far` if there is none before it.
+#[inline]
 fn parabola(f: f64, g: f64, k: f64, far: f64) -> f64 {
     let discriminant = g * g + 2.0 * k * f;
     if discriminant < 0.0 {
@@ -84,6 +85,7 @@ fn by_one_term<const M: usize>(f: f64, p: &Point<M>, bound: f64) -> [f64; 2] {
 /// (Hermite's remainder), with M₆ ≤ max(ω, Ω)² M₄. Quintic minus remainder is a polynomial
 /// of degree six, and its Bernstein coefficients on the interval bound it from below. The first is
 /// f(a) ≥ 0 and the last f(b); `slack` covers the rounding of the values.
+#[inline]
 fn stays_open<const M: usize>(a: &Point<M>, b: &Point<M>, h: f64, bound6: f64, slack: f64) -> bool {
     let (ga, gb) = (h * a.d1, h * b.d1);
     let h2 = h * h;
@@ -305,6 +307,7 @@ fn shorter_leap<const M: usize>(
 }
 
 /// Guesses from `p` where f has just crossed zero; returns `left` if no root is near.
+#[inline]
 fn beyond_root<const M: usize>(p: &Point<M>, root: f64, discriminant: f64, left: f64) -> f64 {
     let crosses = discriminant > 0.0 && (p.d1 < 0.0 || p.d2 < 0.0);
     if !crosses {
@@ -323,6 +326,7 @@ fn beyond_root<const M: usize>(p: &Point<M>, root: f64, discriminant: f64, left:
 
 /// Guesses a point before the first root in (`a`, a + h) by the quintic of both ends, or returns
 /// `None` if the quintic has no root there.
+#[inline]
 fn before_root<const M: usize>(a: &Point<M>, b: &Point<M>, h: f64, bound6: f64) -> Option<f64> {
     let (ga, gb) = (h * a.d1, h * b.d1);
     let h2 = h * h;

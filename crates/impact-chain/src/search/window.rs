@@ -65,6 +65,7 @@ pub fn next_window<const M: usize>(
 
 impl Part {
     /// Returns the time from `s` to the beginning of the next window; 0 in a window.
+    #[inline]
     fn wait(&self, s: f64) -> f64 {
         const TURN: f64 = std::f64::consts::TAU;
         if self.half_width >= 3.5 {
