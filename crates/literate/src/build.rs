@@ -66,8 +66,7 @@ impl Paper {
         let fault = |problem: String| Failure::input(templates.place(&problem));
         let published = Published::parse(templates.text("published.toml")?);
         let ids: Vec<&str> = self.rules.iter().map(|rule| rule.id).collect();
-        let words =
-            Words::read(templates).and_then(|words| words.refuse_unused(&ids)).map_err(fault)?;
+        let words = Words::read(templates, &ids).map_err(fault)?;
         let published = Published { words, ..published.map_err(|error| fault(error.to_string()))? };
         check_rules(&published, &self.rules)?;
         Ok(published)

@@ -5,8 +5,7 @@ use std::collections::BTreeMap;
 /// Names that no file may have on some systems.
 const RESERVED: [&str; 4] = ["con", "prn", "aux", "nul"];
 
-/// Returns what is wrong with a name, or `None`: it has letters, digits, `-`, `_` and `.`, and is
-/// no path.
+/// Returns what is wrong with a name, or `None`: it has letters, digits, `-`, `_` and `.` only.
 pub fn fault(name: &str) -> Option<String> {
     let is_sign = |c: char| c.is_alphanumeric() || "-_.".contains(c);
     let stem = name.split('.').next().unwrap_or_default().to_lowercase();

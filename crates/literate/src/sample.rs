@@ -79,8 +79,7 @@ pub fn difference(a: impl Into<Sampled>, b: impl Into<Sampled>) -> Sampled {
     Sampled { estimate: estimates::difference(a.estimate, b.estimate), sample }
 }
 
-/// Returns a statistic of all realisations with its jackknife error; `statistic` gets the
-/// realisation that it leaves out, or `None`.
+/// Returns a statistic with its jackknife error; `statistic` gets the realisation to leave out.
 pub fn jackknife(
     realisations: usize,
     statistic: impl Fn(Option<usize>) -> Option<f64>,

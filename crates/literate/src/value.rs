@@ -7,8 +7,6 @@
 use crate::sample::{Sample, Sampled};
 use impact_numerics::statistics::Estimate;
 use serde::{Deserialize, Deserializer, Serialize};
-use std::collections::BTreeSet;
-use std::sync::{Mutex, PoisonError};
 
 /// A number as it is shown, or words.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -113,27 +111,14 @@ pub enum Digits {
     /// All: the shortest decimal that reads back to the same double.
     Full,
     /// Those of a text, which may be more than a double holds: 0.50.
-    Text(Written),
+    Text(#[serde(deserialize_with = "read_leaked")] Leaked),
 }
 
-/// A number as it was written, kept once for all its cells as long as the program runs.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Written(pub(crate) &'static str);
+/// A text that is kept as long as the program runs.
+pub type Leaked = &'static str;
 
-impl Written {
-    pub(crate) fn new(text: &str) -> Written {
-        static ALL: Mutex<BTreeSet<&'static str>> = Mutex::new(BTreeSet::new());
-        let mut written = ALL.lock().unwrap_or_else(PoisonError::into_inner);
-        let known = written.get(text).copied().unwrap_or_else(|| Box::leak(text.into()));
-        written.insert(known);
-        Written(known)
-    }
-}
-
-impl<'de> Deserialize<'de> for Written {
-    fn deserialize<D: Deserializer<'de>>(reader: D) -> Result<Self, D::Error> {
-        Ok(Written::new(&String::deserialize(reader)?))
-    }
+fn read_leaked<'de, D: Deserializer<'de>>(reader: D) -> Result<Leaked, D::Error> {
+    Ok(String::deserialize(reader)?.leak())
 }
 
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -227,8 +212,7 @@ impl Value {
         }
     }
 
-    /// Returns its number with the standard error, which is half of the interval, or `None` if it
-    /// has no number.
+    /// Returns its number with the standard error, or `None` if it has no number.
     pub(crate) fn estimate(&self) -> Option<Estimate> {
         let (value, error) = (self.as_f64()?, self.standard_error());
         Some(Estimate { value, error, interval: [value - error, value + error] })

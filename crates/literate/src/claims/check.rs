@@ -1,6 +1,6 @@
 //! Defines a check: a statement or relation with what was found, the tolerance and the verdict.
 
-use super::text::Text;
+use super::texts::Text;
 use serde::{Deserialize, Serialize};
 
 /// What a check judges.
@@ -141,6 +141,12 @@ impl Check {
         Check { verdict, ..self }.note(why)
     }
 
+    /// Takes its note for an explanation: unless this predicts what is found, the check fails.
+    pub fn explained_if(self, holds: bool) -> Check {
+        let note = self.note.clone();
+        self.explained(note, holds)
+    }
+
     pub(crate) fn with_tolerance(self, tolerance: impl Into<Text>, reason: &str) -> Check {
         Check { tolerance: tolerance.into(), reason: reason.into(), ..self }
     }
@@ -150,8 +156,8 @@ impl Check {
         Check { note: note.into(), ..self }
     }
 
-    /// Returns whether a report is to be refused for it: for a difference without an explanation
-    /// that holds, and for a statement that is open without a reason.
+    /// Returns whether a report is to be refused for it: a difference without an explanation that
+    /// holds, or a statement that is open without a reason.
     pub fn fails(&self) -> bool {
         let is_open = self.verdict == Verdict::CannotBeJudged && self.note.is_empty();
         self.verdict == Verdict::Differs || is_open

@@ -3,8 +3,7 @@
 /// The largest exponent and number of decimals of a printed number.
 pub(super) const MAX_PLACES: i32 = 400;
 
-/// Writes a number with this many decimals, and without any if its last digit stands before the
-/// point.
+/// Writes a number with this many decimals, none if it is negative.
 pub(super) fn written(value: f64, decimals: i32) -> String {
     format!("{value:.*}", decimals.clamp(0, MAX_PLACES) as usize)
 }

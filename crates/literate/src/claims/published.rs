@@ -2,8 +2,7 @@
 
 use super::check::{Check, Kind};
 use super::numeral::{MAX_PLACES, number_alone, with_other_digit, written};
-use super::text::Text;
-use super::words::Words;
+use super::texts::{Text, Words};
 use crate::input::{one_line, toml_fault};
 use serde::Deserialize;
 use std::collections::BTreeSet;

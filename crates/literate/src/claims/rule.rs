@@ -4,7 +4,7 @@ use super::check::{Basis, Check, Kind, Verdict};
 use super::evidence::{Error, Evidence, Judged};
 use super::level::CheckLevel;
 use super::published::{Published, Statement};
-use super::text::Text;
+use super::texts::Text;
 use crate::experiments::{Profile, Results};
 use std::panic::Location;
 

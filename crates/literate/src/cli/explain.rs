@@ -71,10 +71,13 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
         }
     }
     let cards: Vec<Card> = ids.iter().filter_map(|id| cards.get(id)).collect();
-    let written = |card: &Card| if in_short { card_line(card) } else { card_text(card) };
-    let cards =
-        cards.iter().map(written).collect::<Vec<_>>().join(if in_short { "" } else { "\n" });
-    print(&(cards + &rows))
+    let cards: Vec<String> = if in_short {
+        let line = |card: &Card| format!("{:28} {}\n", clean(&card.id), spelt_line(&card.title));
+        vec![cards.iter().map(line).collect()]
+    } else {
+        cards.iter().map(card_text).collect()
+    };
+    print(&(cards.join("\n") + &rows))
 }
 
 /// Returns the rows of a data file that an address names, below the names and units of the columns,
@@ -102,10 +105,6 @@ fn read(paper: &Path, name: &str) -> Result<String, Failure> {
 
 fn fault(error: Error) -> Failure {
     Failure::input(format!("--paper: {error}; make the report anew with `paper`"))
-}
-
-fn card_line(card: &Card) -> String {
-    format!("{:28} {}\n", clean(&card.id), spelt_line(&card.title))
 }
 
 fn card_text(card: &Card) -> String {

@@ -61,8 +61,7 @@ impl Command {
         Command { name, line, parameters, reads: none, writes: none, env: none, versions: none }
     }
 
-    /// Returns what a command wrote to standard error when its result was saved, or `None` if there
-    /// is no such result.
+    /// Returns what a command wrote to standard error when it last ran, or `None` if it did not.
     pub(crate) fn said(name: &str, profile: Profile, store: &Store) -> Option<String> {
         Some(store.load_last::<Output>(name, profile)?.said)
     }

@@ -2,7 +2,7 @@
 
 use crate::decimal::Decimal;
 use crate::table::{Building, Table, no_such};
-use crate::value::{Digits, Number, Origin, Written};
+use crate::value::{Digits, Number, Origin};
 use impact_numerics::estimates::with_error;
 use serde::de::{Error, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -211,11 +211,11 @@ impl Cell {
         if Decimal::read(&self.text) == full {
             return number;
         }
-        Number::Real { value, digits: Digits::Text(Written::new(&self.text)) }
+        Number::Real { value, digits: Digits::Text(leaked(&self.text)) }
     }
 }
 
-/// Names of tables live as long as the program.
+/// Keeps names and digits of tables as long as the program runs.
 fn leaked(text: &str) -> &'static str {
-    Box::leak(text.to_string().into_boxed_str())
+    text.to_string().leak()
 }

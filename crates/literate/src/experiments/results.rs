@@ -12,8 +12,7 @@ use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-/// Makes tables of the results and tables of several experiments, or returns `None` if one of these
-/// was not run.
+/// Makes tables of several experiments, or returns `None` if one of these was not run.
 pub type DerivedTables = fn(&Results, &[Table]) -> Option<Vec<Table>>;
 
 /// The results of experiments, and the tables that are made of them.
@@ -66,8 +65,7 @@ impl Results {
         experiment.to_json(result)
     }
 
-    /// Returns these results and their tables with another result of one experiment, or `None` if
-    /// the experiment cannot have this result.
+    /// Returns the results with another one of an experiment, or `None` if it cannot be one.
     pub(crate) fn with_json(&self, name: &str, result: serde_json::Value) -> Option<Results> {
         let mut copy = self.copy();
         let (experiment, replaced) = copy.results.iter_mut().find(|(one, _)| one.name() == name)?;
@@ -162,8 +160,7 @@ impl Results {
         }
     }
 
-    /// Returns the results of experiments in this order: saved results where they are fresh, and
-    /// else results of runs.
+    /// Returns the results of experiments in this order, saved ones where they are fresh.
     pub(crate) fn run(
         experiments: &[&'static dyn AnyExperiment],
         derived: &[DerivedTables],

@@ -1,14 +1,33 @@
-//! Holds what a run needs: project, prose, profile, store and progress.
+//! Holds what a run needs: project, prose, profile (the sizes of its samples), store and progress.
 
 use super::cutting::{Unit, WORK_PER_SECOND};
 use super::error::Error;
-use super::profile::Profile;
 use super::progress::Progress;
 use super::store::Store;
 use crate::code::Code;
 use crate::input::count;
 use crate::project::Project;
 use crate::prose::Templates;
+use serde::{Deserialize, Serialize};
+
+/// The sizes of samples.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
+#[serde(rename_all = "lowercase")]
+pub enum Profile {
+    /// Small samples, to try things out
+    Quick,
+    /// The committed report
+    Full,
+}
+
+impl Profile {
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Profile::Quick => "quick",
+            Profile::Full => "full",
+        }
+    }
+}
 
 /// What a run of the program works with.
 #[derive(Debug)]
@@ -33,8 +52,7 @@ impl Session<'_> {
         Session { progress: Progress::silent(), templates, store, code, ..*self }
     }
 
-    /// Prints one line that says what is run and about how long it takes, if any units are to be
-    /// run.
+    /// Prints what is run and about how long it takes, if any units are to be run.
     pub(crate) fn announce(&self, subject: &str, units: &[Unit]) -> Result<(), Error> {
         if units.is_empty() {
             return Ok(());

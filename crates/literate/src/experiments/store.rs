@@ -39,14 +39,8 @@ impl Identity {
         code: BTreeMap<String, String>,
         parameters: serde_json::Value,
     ) -> Self {
-        Identity {
-            experiment: experiment.into(),
-            profile,
-            schema: SCHEMA,
-            parameters,
-            unit: None,
-            code,
-        }
+        let (experiment, unit) = (experiment.into(), None);
+        Identity { experiment, profile, schema: SCHEMA, parameters, unit, code }
     }
 
     pub fn for_unit(&self, unit: &Unit) -> Self {
@@ -163,11 +157,10 @@ impl Store {
         let files = self.folder.iter().filter_map(|folder| folder.read_dir().ok()).flatten();
         let units = files.flatten().map(|entry| entry.path()).filter(is_unit);
         for path in units.chain(self.path(identity).filter(|_| is_to_run)) {
-            match std::fs::remove_file(&path) {
-                Err(source) if !is_absent(&source) => {
-                    return Err(Error(Fault::Store { path, source }));
-                }
-                _ => (),
+            if let Err(source) = std::fs::remove_file(&path)
+                && !is_absent(&source)
+            {
+                return Err(Error(Fault::Store { path, source }));
             }
         }
         Ok(())
@@ -214,15 +207,12 @@ fn digest(lines: &[&str]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use impact_numerics::random::{NormalPairs, Seed};
 
     #[test]
     fn results_come_back_to_the_bit_and_what_is_not_finite_is_not_saved() {
         let folder = tempfile::tempdir().unwrap();
-        let mut normals = impact_numerics::random::NormalPairs::new(
-            "test-store",
-            impact_numerics::random::Seed(1),
-            0,
-        );
+        let mut normals = NormalPairs::new("test-store", Seed(1), 0);
         let mut result: Vec<_> = (0..500).flat_map(|_| normals.pair()).map(Some).collect();
         result.extend([None, Some(-0.0), Some(f64::MIN_POSITIVE / 4.0), Some(f64::MAX)]);
         let store = Store::open(folder.path());

@@ -300,8 +300,7 @@ pub fn power_of_ten(exponent: i32) -> String {
     format!("10^{{{}}}", exponent.to_string().replace('-', "−"))
 }
 
-/// Formats a number with about `digits` significant digits, for notes and descriptions; a tiny one
-/// as a multiple of a power of ten.
+/// Formats a number with about `digits` significant digits; a tiny one with a power of ten.
 pub fn short(value: f64, digits: usize) -> String {
     if value != 0.0 && value.abs() < 1e-3 {
         let shown = format!("{:.*e}", digits.saturating_sub(1), value);

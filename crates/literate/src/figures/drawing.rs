@@ -150,8 +150,7 @@ impl DrawingBackend for Drawing {
         self.draw_rect((x, y), (x + 1, y + 1), &colour, true)
     }
 
-    /// Draws a straight line from its upper end. It continues the stroke before it if both look
-    /// alike, so that thousands of ticks are one path.
+    /// Draws a line from its upper end, as part of the stroke before it if both look alike.
     fn draw_line<S: BackendStyle>(&mut self, a: Point, b: Point, style: &S) -> Outcome {
         let (from, to) = if a.1 <= b.1 { (a, b) } else { (b, a) };
         self.path(polyline([from, to]), style, false)?;

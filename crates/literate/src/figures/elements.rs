@@ -64,8 +64,7 @@ pub fn line<C: Clone + 'static>(points: Vec<C>, stroke: Stroke) -> DynElement<'s
     CustomElement::new(points, dashed).into_dyn()
 }
 
-/// Makes ticks at points, `width` wide and as high as the stroke is thick; those in one row that
-/// touch are one stroke.
+/// Makes ticks as high as the stroke is thick; those in one row that touch are one stroke.
 pub fn ticks<C>(points: Vec<C>, width: i32, stroke: Stroke) -> CustomElement<C> {
     CustomElement::new(points, move |drawing, mut points| {
         points.sort_unstable_by_key(|&(x, y)| (y, x));

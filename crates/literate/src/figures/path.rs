@@ -43,8 +43,8 @@ pub fn circle((x, y): Point, r: i32) -> Vec<Step> {
     path
 }
 
-/// Returns the parameters between which the stretch from `a` to `b` lies in the rectangle of these
-/// ends (Liang and Barsky 1984), or `None` if it does not.
+/// Returns between which parameters the stretch from `a` to `b` lies in a rectangle, or `None` if
+/// it does not (Liang and Barsky 1984).
 pub fn inside(a: (f64, f64), b: (f64, f64), x: (f64, f64), y: (f64, f64)) -> Option<(f64, f64)> {
     let (dx, dy) = (b.0 - a.0, b.1 - a.1);
     let (mut start, mut end) = (0.0_f64, 1.0_f64);

@@ -57,8 +57,7 @@ pub(super) struct Record {
 }
 
 impl Record {
-    /// Adds rows to a series: bars, symbols and curves of one name are one set of rows, by rising
-    /// x.
+    /// Adds rows to a series: bars, symbols and curves of one name are one set, by rising x.
     pub(super) fn add(&mut self, name: &str, rows: impl IntoIterator<Item = DataPoint>) {
         let name = spelled(name);
         let Some((_, known)) = self.series.iter_mut().find(|series| series.0 == name) else {

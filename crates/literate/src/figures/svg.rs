@@ -117,8 +117,7 @@ fn label(label: &Label, on_page: bool) -> String {
 }
 
 impl Drawing {
-    /// Writes an element of a page, which holds the rules of colours and the outlines of glyphs, or
-    /// a file. `id` must be unique on a page that shows several drawings.
+    /// Writes a file, or an element of a page, which holds the colours and outlines of glyphs.
     pub(crate) fn svg(&self, on_page: bool, id: &str, title: &str, description: &str) -> String {
         let (mut namespace, mut head) = ("", String::new());
         if !on_page {

@@ -39,8 +39,7 @@ fn markdown(unit: &str) -> String {
 }
 
 impl<'a, R> Building<'a, R> {
-    /// Adds a column, whose cells are made by `cell` of what the author's code, `get`, returns for
-    /// each row.
+    /// Adds a column, whose cells `cell` makes of what the author's code, `get`, returns.
     fn put<T, F: Fn(&R) -> T>(
         mut self,
         (name, unit): (&'static str, &'static str),
@@ -67,8 +66,7 @@ impl<'a, R> Building<'a, R> {
         self
     }
 
-    /// Sets the item that computed the table's estimates, reals and counts, but those that
-    /// [`Building::computed_by`] names.
+    /// Sets what computed its estimates, reals and counts, but for [`Building::computed_by`].
     pub fn table_computed_by(mut self, item: Origin) -> Self {
         if !self.table.columns.is_empty() {
             self.fault("table_computed_by stands after columns; put it first".into());
@@ -202,8 +200,7 @@ impl<'a, R> Building<'a, R> {
         })
     }
 
-    /// Names the rows by their keys. Two columns or rows of one name, and numbers that are not
-    /// finite, are errors when the table is first asked for.
+    /// Names the rows by their keys. What is wrong with it is an error when the table is asked for.
     pub fn done(mut self) -> Table {
         let columns = self.table.columns.clone();
         for (index, column) in columns.iter().enumerate() {

@@ -1,12 +1,11 @@
 //! Writes data files: whole tables and the points of figures as CSV.
 
 use super::rows::{Column, Table};
-use crate::value::{Digits, Number, Provenance, Written};
+use crate::value::{Digits, Number, Provenance};
 use std::borrow::Cow;
 
 impl DataFile {
-    /// Makes the file of a table: names of columns with units, and cells with every bit of each
-    /// number, and a further column for each standard error.
+    /// Makes the file of a table, with every bit of each number, and a column for each error.
     pub(crate) fn from_table(table: &Table) -> Self {
         let (mut header, mut rows) = (Vec::new(), vec![Vec::new(); table.rows.len()]);
         for (index, Column { name, unit }) in table.columns.iter().enumerate() {
@@ -47,7 +46,7 @@ fn to_cell(number: &Number) -> String {
     match number {
         Number::None => String::new(),
         Number::Integer(n) => n.to_string(),
-        Number::Real { digits: Digits::Text(Written(text)), .. } => text.to_string(),
+        Number::Real { digits: Digits::Text(text), .. } => text.to_string(),
         Number::Real { value, .. } => format!("{value:?}"),
         Number::Text(words) => words.clone(),
     }

@@ -1,9 +1,9 @@
 //! Holds the cells of a table, and finds them by addresses and keys.
 
-use super::missing::{Missing, NO_NUMBER, no_such};
+use super::find::{Missing, NO_NUMBER, no_such};
 use crate::decimal::Decimal;
 use crate::input::source_line;
-use crate::value::{Digits, Number, Value, Written};
+use crate::value::{Digits, Number, Value};
 use impact_numerics::statistics::Estimate;
 use std::collections::BTreeMap;
 use std::panic::Location;
@@ -73,8 +73,7 @@ impl Table {
         }
     }
 
-    /// Returns the rows that have these values of keys, in order; keys that are left out may have
-    /// any value.
+    /// Returns the rows that have these values of keys, whatever those that are left out are.
     #[track_caller]
     fn select(&self, keys: Keys<'_>) -> Result<Vec<&[Value]>, Missing> {
         let mut rows: Vec<&[Value]> = self.rows.iter().map(|(_, cells)| &cells[..]).collect();
@@ -103,16 +102,14 @@ impl Table {
         }
     }
 
-    /// Returns the points (x, y) of two columns, in the order of the rows, without rows that lack
-    /// one of the numbers.
+    /// Returns the points (x, y) of two columns, without rows that lack one of the numbers.
     #[track_caller]
     pub fn curve(&self, keys: Keys<'_>, x: &str, y: &str) -> Result<Vec<(f64, f64)>, Missing> {
         let series = self.series(keys, x, y)?;
         Ok(series.into_iter().map(|(x, estimate)| (x, estimate.value)).collect())
     }
 
-    /// Returns the points of [`Table::curve`] with their standard errors, which are zero where a
-    /// number has no error.
+    /// Returns the points of [`Table::curve`] with their standard errors, zero where there is none.
     #[track_caller]
     pub fn series(
         &self,
@@ -132,8 +129,7 @@ impl Table {
         Ok(without_repeats(self.rows.iter().filter_map(|(_, cells)| cells[index].as_f64())))
     }
 
-    /// Returns the values of a key as addresses write them, without repetitions, in the order of
-    /// the rows.
+    /// Returns the values of a key as addresses write them, without repetitions, in their order.
     pub(crate) fn key_values(&self, key: &str) -> Vec<String> {
         let index = self.keys().position(|name| name == key);
         let cells = self.rows.iter().filter_map(|(_, cells)| cells.get(index?));
@@ -170,8 +166,7 @@ impl Table {
         self.columns.iter().map(|column| column.name)
     }
 
-    /// Returns the table with one of these experiments as the origin of its cells: the one that it
-    /// is named after, or the only one.
+    /// Returns the table as made by the experiment that it is named after, or by the only one.
     pub(crate) fn made_by(mut self, experiments: &[&str]) -> Table {
         let named = experiments.iter().any(|name| self.name.split('.').next() == Some(name));
         let only = if let [only] = experiments { only } else { "" };
@@ -229,7 +224,7 @@ pub(super) fn key_to_text(key: &Number) -> String {
     match key {
         Number::None => "none".into(),
         Number::Integer(n) => n.to_string(),
-        Number::Real { value, digits: Digits::Text(Written(text)) }
+        Number::Real { value, digits: Digits::Text(text) }
             if Decimal::read(text).trimmed() != Decimal::shortest(*value).trimmed() =>
         {
             text.to_string()
