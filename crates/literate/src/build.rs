@@ -1,6 +1,6 @@
 //! Builds a report: opens a run of a paper, judges its results, and makes every file in memory.
 
-use crate::claims::{Check, Published, Words, check_rules, judge_all};
+use crate::claims::{Check, Judge, Published, Words, check_rules};
 use crate::code::Code;
 use crate::experiments::{AnyExperiment, Error, Profile, Progress, Results, Session, Store};
 use crate::failure::Failure;
@@ -102,7 +102,7 @@ pub fn make_report(
     };
     let figures =
         paper.figures.par_iter().with_max_len(1).map(figure).collect::<Result<Vec<Figure>, _>>()?;
-    let checks = judge_all(&published, &paper.rules, &results)?;
+    let checks = Judge::new(&published, &paper.rules, &results).checks()?;
     let statements: Vec<Check> =
         checks.iter().filter(|check| check.kind.is_printed()).cloned().collect();
     let values = paper.registry(&results, &published)?;

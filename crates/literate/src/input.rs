@@ -158,7 +158,6 @@ pub fn one_line(input: &str, most: usize) -> String {
     head.chain(['…']).chain(message.chars().skip(length - tail)).collect()
 }
 
-/// Writes a place in the source: `src/main.rs:12`.
 pub(crate) fn source_line(location: &Location<'_>) -> String {
     format!("{}:{}", location.file(), location.line())
 }

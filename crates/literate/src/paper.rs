@@ -14,25 +14,24 @@ use serde_json::Value as Json;
 use std::collections::{BTreeMap, BTreeSet};
 use std::panic::Location;
 
+type Needs = &'static [&'static dyn AnyExperiment];
+type Draw = fn(&Results) -> Result<Figure, figures::Error>;
+
 /// A figure of the paper before it is drawn.
 #[derive(Clone, Copy)]
 pub struct FigureSpec {
     /// Its name; its picture is `figures/NAME.svg`.
     pub name: &'static str,
     /// The experiments whose results it shows.
-    pub needs: &'static [&'static dyn AnyExperiment],
-    pub(crate) draw: fn(&Results) -> Result<Figure, figures::Error>,
+    pub needs: Needs,
+    pub(crate) draw: Draw,
     place: &'static Location<'static>,
 }
 
 impl FigureSpec {
     /// Lists a figure with its name, what it needs, and the function that draws it.
     #[track_caller]
-    pub const fn new(
-        name: &'static str,
-        needs: &'static [&'static dyn AnyExperiment],
-        draw: fn(&Results) -> Result<Figure, figures::Error>,
-    ) -> Self {
+    pub const fn new(name: &'static str, needs: Needs, draw: Draw) -> Self {
         FigureSpec { name, needs, draw, place: Location::caller() }
     }
 
@@ -137,12 +136,7 @@ impl Paper {
 
     /// Adds a figure with its name, the experiments that it needs, and what draws it.
     #[track_caller]
-    pub fn figure(
-        mut self,
-        name: &'static str,
-        needs: &'static [&'static dyn AnyExperiment],
-        draw: fn(&Results) -> Result<Figure, figures::Error>,
-    ) -> Self {
+    pub fn figure(mut self, name: &'static str, needs: Needs, draw: Draw) -> Self {
         self.figures.push(FigureSpec::new(name, needs, draw));
         self
     }

@@ -185,7 +185,6 @@ fn grouped(digits: String) -> String {
 }
 
 impl Value {
-    /// Returns the value in its digits, for terminals and data: `0.1165(4)`.
     pub(crate) fn to_plain_text(&self) -> String {
         print(&self.number, Style::default()).to_plain_text()
     }

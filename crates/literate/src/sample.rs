@@ -84,8 +84,7 @@ pub fn jackknife(
     realisations: usize,
     statistic: impl Fn(Option<usize>) -> Option<f64>,
 ) -> Option<Sampled> {
-    estimates::jackknife(realisations, statistic)
-        .map(|estimate| with_values(realisations, estimate))
+    estimates::jackknife(realisations, statistic).map(|mean| with_values(realisations, mean))
 }
 
 /// Returns the ratio of two sums over realisations, with its jackknife error.

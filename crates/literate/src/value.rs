@@ -183,12 +183,7 @@ impl Value {
     }
 
     /// Makes a number as somebody printed it, with its decimals, at a place of a paper.
-    pub(crate) fn printed(
-        id: impl Into<String>,
-        value: f64,
-        decimals: usize,
-        place: impl Into<String>,
-    ) -> Self {
+    pub(crate) fn printed(id: String, value: f64, decimals: usize, place: &str) -> Self {
         let number = if decimals == 0 && value.fract() == 0.0 {
             Number::Integer(value as i128)
         } else {

@@ -46,7 +46,6 @@ thread_local! {
 }
 
 impl Page {
-    /// Starts the run that numbers and text describe.
     fn open(&mut self) -> Result<(), String> {
         self.run = None;
         let stream = String::from_utf8_lossy(&self.text);

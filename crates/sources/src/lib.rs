@@ -71,7 +71,6 @@ pub fn texts(places: TokenStream) -> TokenStream {
     code(files_below(quoted_words(places), &endings), |list| format!("&[{list}]"))
 }
 
-/// Returns the folder of the crate's Cargo.toml.
 fn top() -> String {
     std::env::var("CARGO_MANIFEST_DIR").unwrap_or_default()
 }
@@ -87,7 +86,6 @@ fn code(files: Result<Vec<String>, String>, whole: impl Fn(&str) -> String) -> T
     tokens.parse().unwrap_or_default()
 }
 
-/// Returns the words in quotation marks.
 fn quoted_words(tokens: TokenStream) -> Vec<String> {
     tokens.to_string().split('"').skip(1).step_by(2).map(String::from).collect()
 }

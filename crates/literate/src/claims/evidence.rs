@@ -179,7 +179,7 @@ impl Evidence<'_> {
 
     /// Makes the check of all its texts with the numbers in them; `None` leaves it open.
     pub fn check(&self, agrees: impl Into<Option<bool>>, numbers: Numbers<'_>) -> Judged {
-        let [found, tolerance, reason, note] = self.filled(KEYS, numbers)?;
+        let [found, tolerance, reason, note] = self.fill(KEYS, numbers)?;
         let check = self.open(found).note(note);
         Ok(match agrees.into() {
             Some(agrees) => check.judged(agrees).with_tolerance(tolerance, &reason.to_string()),
@@ -189,15 +189,11 @@ impl Evidence<'_> {
 
     /// Makes one text of the check, for one that some results alone have or that has other numbers.
     pub fn sentence(&self, key: &str, numbers: Numbers<'_>) -> Result<Text, Error> {
-        let [text] = self.filled([key], numbers)?;
+        let [text] = self.fill([key], numbers)?;
         Ok(text)
     }
 
-    fn filled<const N: usize>(
-        &self,
-        keys: [&str; N],
-        numbers: Numbers<'_>,
-    ) -> Result<[Text; N], Error> {
+    fn fill<const N: usize>(&self, keys: [&str; N], numbers: Numbers) -> Result<[Text; N], Error> {
         let texts = self.published.words.fill(&self.statement.id, keys, numbers);
         Ok(texts.map_err(PublishedError)?)
     }
@@ -207,7 +203,6 @@ impl Evidence<'_> {
         self.statement.open(found)
     }
 
-    /// Starts a check with what was found, and whether it agrees with what was printed.
     pub(crate) fn found(&self, found: impl Into<Text>, agrees: bool) -> Check {
         self.open(found).judged(agrees)
     }

@@ -18,7 +18,6 @@ pub struct CheckLevel {
 }
 
 impl CheckLevel {
-    /// Returns the level for this number of checks (at least one).
     pub(crate) fn for_checks(claims: usize) -> CheckLevel {
         let each = -pxfm::f_expm1(pxfm::f_log1p(-FAMILY_LEVEL) / claims.max(1) as f64);
         let quantile = (100.0 * normal_quantile(1.0 - each)).ceil() / 100.0;

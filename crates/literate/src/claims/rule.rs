@@ -136,77 +136,69 @@ pub(crate) fn check_rules(published: &Published, rules: &[Rule]) -> Result<(), E
     Ok(())
 }
 
-/// What rules are judged by: printed statements, results, and the level of statistical checks.
+/// Judges by rules: what was printed, and the results.
 #[derive(Clone, Copy)]
-pub(super) struct Judge<'a> {
-    published: &'a Published,
-    pub results: &'a Results,
-    level: CheckLevel,
+pub struct Judge<'a> {
+    pub(super) published: &'a Published,
+    pub(super) rules: &'a [Rule],
+    pub(super) results: &'a Results,
 }
 
 impl<'a> Judge<'a> {
-    pub fn new(published: &'a Published, rules: &[Rule], results: &'a Results) -> Judge<'a> {
-        Judge { published, results, level: level_of(rules) }
+    /// Makes a judge of these statements by these rules and results.
+    pub fn new(published: &'a Published, rules: &'a [Rule], results: &'a Results) -> Judge<'a> {
+        Judge { published, rules, results }
     }
 
-    pub fn check(&self, rule: &Rule, statement: &Statement) -> Judged {
-        let Judge { published, results, level } = *self;
+    pub(super) fn check(&self, rule: &Rule, statement: &Statement) -> Judged {
+        let Judge { published, rules, results } = *self;
         let allows_errors = rule.is_statistical || !rule.is_of_statement();
         // Small samples may decide nothing.
         let is_strict = results.profile == Profile::Full && !rule.may_stay_open;
-        let level = Some(level).filter(|_| allows_errors);
+        let level = allows_errors.then(|| level_of(rules));
         let judged = rule.judged(&Evidence { statement, results, published, level, is_strict });
         judged.map_err(|error| Error::Check(rule.id.into(), Box::new(error)))
     }
-}
 
-/// Judges all statements, first those that rest on a measure of ours, and then all relations. A
-/// statement without a rule stays open and [fails](Check::fails); a rule without a statement, or a
-/// number, is an error.
-pub fn judge_all(
-    published: &Published,
-    rules: &[Rule],
-    results: &Results,
-) -> Result<Vec<Check>, Error> {
-    check_rules(published, rules)?;
-    results.tables()?;
-    let judge = Judge::new(published, rules, results);
-    let mut checks = Vec::new();
-    for statement in &published.statements {
-        let rule = rules.iter().find(|rule| rule.is_of_statement() && rule.id == statement.id);
-        checks.push(match rule {
-            Some(rule) => judge.check(rule, statement)?,
-            None => statement.open("–"),
-        });
+    /// Judges all statements, first those that rest on a measure of ours, and then all relations. A
+    /// statement without a rule stays open and [fails](Check::fails); a rule without a statement,
+    /// or a number, is an error.
+    pub fn checks(&self) -> Result<Vec<Check>, Error> {
+        let Judge { published, rules, results } = *self;
+        check_rules(published, rules)?;
+        results.tables()?;
+        let mut checks = Vec::new();
+        for statement in &published.statements {
+            let rule = rules.iter().find(|rule| rule.is_of_statement() && rule.id == statement.id);
+            checks.push(match rule {
+                Some(rule) => self.check(rule, statement)?,
+                None => statement.open("–"),
+            });
+        }
+        for rule in rules.iter().filter(|rule| !rule.is_of_statement()) {
+            checks.push(self.check(rule, &rule.statement(published)?)?);
+        }
+        checks.sort_by_key(|check| (check.kind, check.basis != Basis::OurMeasure));
+        Ok(checks)
     }
-    for rule in rules.iter().filter(|rule| !rule.is_of_statement()) {
-        checks.push(judge.check(rule, &rule.statement(published)?)?);
-    }
-    checks.sort_by_key(|check| (check.kind, check.basis != Basis::OurMeasure));
-    Ok(checks)
-}
 
-/// Judges each statement once more with another first digit in its number. Returns the ids of those
-/// that are still reproduced or explained: their verdicts say nothing about the number.
-pub fn ids_blind_to_number(
-    published: &Published,
-    rules: &[Rule],
-    results: &Results,
-) -> Vec<&'static str> {
-    let judge = Judge::new(published, rules, results);
-    let is_blind = |rule: &&Rule| {
-        let misprint = published.statement(rule.id).ok().and_then(Statement::misprint);
-        let verdict = misprint.map(|misprint| judge.check(rule, &misprint).map(|it| it.verdict));
-        matches!(verdict, Some(Ok(Verdict::Reproduced | Verdict::DiffersAndExplained)))
-    };
-    let rules = rules.iter().filter(|rule| rule.is_of_statement());
-    rules.filter(is_blind).map(|rule| rule.id).collect()
+    /// Judges each statement once more with another first digit in its number. Returns the ids of
+    /// those that are still reproduced or explained: their verdicts say nothing about the number.
+    pub fn ids_blind_to_number(&self) -> Vec<&'static str> {
+        let is_blind = |rule: &&Rule| {
+            let misprint = self.published.statement(rule.id).ok().and_then(Statement::misprint);
+            let check = misprint.map(|misprint| self.check(rule, &misprint));
+            let verdict = check.map(|check| check.map(|check| check.verdict));
+            matches!(verdict, Some(Ok(Verdict::Reproduced | Verdict::DiffersAndExplained)))
+        };
+        let rules = self.rules.iter().filter(|rule| rule.is_of_statement());
+        rules.filter(is_blind).map(|rule| rule.id).collect()
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::claims::ids_never_moved;
     use crate::claims::text;
     use crate::table::Table;
     use impact_numerics::statistics::Estimate;
@@ -226,7 +218,7 @@ mod tests {
     }
 
     fn judged(rules: &[Rule]) -> Result<Vec<Check>, Error> {
-        judge_all(&Published::parse(PUBLISHED).unwrap(), rules, &results())
+        Judge::new(&Published::parse(PUBLISHED).unwrap(), rules, &results()).checks()
     }
 
     fn refused(id: &'static str, judge: fn(&Evidence<'_>) -> Judged) -> String {
@@ -270,8 +262,8 @@ mod tests {
     #[test]
     fn a_cell_has_room_for_its_errors_once() {
         let published = Published::parse(&PUBLISHED.replace("0.11", "0.10")).unwrap();
-        let rule = Rule::new("mean", |e| e.cell("toy.all.mean")).statistical();
-        let checks = judge_all(&published, &[rule], &results()).unwrap();
+        let rules = [Rule::new("mean", |e| e.cell("toy.all.mean")).statistical()];
+        let checks = Judge::new(&published, &rules, &results()).checks().unwrap();
         assert_eq!(checks[1].verdict, Verdict::Differs);
     }
 
@@ -286,7 +278,7 @@ mod tests {
             let published = Published::parse(PUBLISHED).unwrap();
             let results = Results::made_up(vec![table.done()]);
             let rule = [Rule::new("rise", judge).statistical()];
-            let mut checks = judge_all(&published, &rule, &results).unwrap();
+            let mut checks = Judge::new(&published, &rule, &results).checks().unwrap();
             (checks[0].verdict, std::mem::take(&mut checks[0].tolerance).to_string())
         };
         let within = |sampled| judge(sampled, |e| e.within_errors("toy.all.mean"));
@@ -323,7 +315,9 @@ mod tests {
             .relation("It never fails."),
         ];
         let published = Published::parse(PUBLISHED).unwrap();
-        let named = |open| ids_never_moved(&published, &rules, &results(), open).unwrap();
+        let results = results();
+        let judge = Judge::new(&published, &rules, &results);
+        let named = |open| judge.ids_never_moved(open).unwrap();
         assert_eq!(named(false), ["mean", "panics"]);
         assert_eq!(named(true), ["mean", "words", "panics"]);
     }

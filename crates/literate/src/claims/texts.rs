@@ -192,7 +192,7 @@ impl Words {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::claims::{Check, Published, Rule, Verdict, judge_all};
+    use crate::claims::{Check, Judge, Published, Rule, Verdict};
     use crate::experiments::Results;
 
     const RISE: &str = "[shared]\nreason = \"ours\"\n[rise]\nfound = \"{share:2} of {all}\"\ntolerance = \"none\"\n";
@@ -202,7 +202,8 @@ mod tests {
             "[[statement]]\nid = \"rise\"\nplace = \"a\"\nstatement = \"b\"\nprinted = \"c\"";
         let words = Words::read(&Templates::from_files([("claims/a.toml", file)]), &[rule.id])?;
         let published = Published { words, ..Published::parse(statement).unwrap() };
-        let checks = judge_all(&published, &[rule], &Results::made_up(Vec::new()));
+        let (rules, results) = ([rule], Results::made_up(Vec::new()));
+        let checks = Judge::new(&published, &rules, &results).checks();
         Ok(checks.map_err(|error| error.to_string())?.remove(0))
     }
 

@@ -37,7 +37,7 @@ fn share(shard: &str) -> Result<(usize, usize), String> {
 
 pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     let Args { shard, options } = args;
-    let session = options.session(paper)?;
+    let session = options.open(paper, None)?.session;
     let saved: Vec<&'static dyn AnyExperiment> =
         paper.experiments.iter().copied().filter(|one| one.is_saved()).collect();
     let outcome = options.threads.run(|| match shard {

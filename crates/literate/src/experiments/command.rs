@@ -129,7 +129,6 @@ impl Command {
         Ok(hashes)
     }
 
-    /// Copies its inputs into a folder.
     fn copy_to(&self, folder: &Path, top: &Path) -> io::Result<()> {
         for input in self.inputs(top).map_err(io::Error::other)? {
             if top.join(&input).is_dir() {
@@ -220,7 +219,6 @@ impl Command {
     }
 }
 
-/// Makes a folder for a run among the temporary ones.
 fn folder_in(temporary: &Path) -> Result<tempfile::TempDir, String> {
     let failed = |error| format!("TMPDIR is {}: {error}; make that folder", temporary.display());
     tempfile::tempdir_in(temporary).map_err(failed)
@@ -234,7 +232,6 @@ fn words(line: &str) -> Result<Vec<String>, String> {
     }
 }
 
-/// Finds a program in the folders of `PATH`.
 fn in_path(name: &str) -> Result<PathBuf, String> {
     let is_program = |path: &PathBuf| {
         path.metadata().is_ok_and(|file| file.is_file() && file.permissions().mode() & 0o111 != 0)

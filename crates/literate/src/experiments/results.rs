@@ -50,7 +50,6 @@ impl Results {
         Results { profile: *profile, results, derived, tables, read: Mutex::default() }
     }
 
-    /// Returns these results with another table in the place of the one with its name.
     pub(crate) fn with_table(&self, table: Table) -> Results {
         let mut copy = self.copy();
         if let Some(Ok(tables)) = copy.tables.get_mut() {
@@ -144,7 +143,6 @@ impl Results {
         command.file(output, path).ok_or(missing)
     }
 
-    /// Returns the cell with this address: `theory.jump.p_jump`.
     #[track_caller]
     pub(crate) fn cell(&self, address: &str) -> Result<&Value, Error> {
         self.note(table_name(address).unwrap_or(address));

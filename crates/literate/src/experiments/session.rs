@@ -30,7 +30,7 @@ impl Profile {
 }
 
 /// What a run of the program works with.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Session<'a> {
     /// Where files are found.
     pub project: &'a Project,
@@ -40,18 +40,10 @@ pub struct Session<'a> {
     pub(crate) store: Store,
     /// Where progress is shown.
     pub progress: Progress,
-    /// What results are made of.
     pub(crate) code: Code,
 }
 
 impl Session<'_> {
-    /// Returns a session of the same that shows no progress.
-    pub(crate) fn silent(&self) -> Self {
-        let (templates, store, code) =
-            (self.templates.clone(), self.store.clone(), self.code.clone());
-        Session { progress: Progress::silent(), templates, store, code, ..*self }
-    }
-
     /// Prints what is run and about how long it takes, if any units are to be run.
     pub(crate) fn announce(&self, subject: &str, units: &[Unit]) -> Result<(), Error> {
         if units.is_empty() {

@@ -12,14 +12,12 @@ pub enum Step {
     Close,
 }
 
-/// Returns the straight lines from point to point.
 pub fn polyline(points: impl IntoIterator<Item = Point>) -> Vec<Step> {
     let mut points = points.into_iter();
     let first = points.next().map(Step::Move);
     first.into_iter().chain(points.map(Step::Line)).collect()
 }
 
-/// Returns the straight lines from point to point and back to the first.
 pub fn polygon(points: impl IntoIterator<Item = Point>) -> Vec<Step> {
     let mut path = polyline(points);
     path.push(Step::Close);

@@ -21,7 +21,6 @@ impl From<(f64, f64)> for DataPoint {
 }
 
 impl From<(f64, f64, f64)> for DataPoint {
-    /// A bar between two heights.
     fn from((x, low, high): (f64, f64, f64)) -> Self {
         DataPoint { x, known: [None, None, Some(low), Some(high)] }
     }

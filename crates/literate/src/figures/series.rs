@@ -54,7 +54,6 @@ impl Panel {
         }
     }
 
-    /// Returns whether the axes have a place for a point.
     fn has_place(&self, (x, y): (f64, f64)) -> bool {
         self.x.position(x).is_finite() && self.y.position(y).is_finite()
     }

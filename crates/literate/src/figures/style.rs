@@ -55,7 +55,6 @@ const SHADES: [RGBColor; 4] = [
 /// The page.
 pub(crate) const WHITE: RGBColor = RGBColor(0xff, 0xff, 0xff);
 
-/// All colours by the names that style sheets use.
 pub(super) const PALETTE: [(&str, RGBColor); 13] = [
     ("ink", INK),
     ("grey", GREY),
@@ -157,7 +156,6 @@ pub(crate) fn rimmed(size: i32, colour: RGBColor, h: HPos, v: VPos) -> TextStyle
     FontDesc::from(("rimmed", size)).color(&colour).pos(Pos::new(h, v))
 }
 
-/// Returns whether a style is one of [`rimmed`].
 pub(super) fn is_rimmed(style: &impl BackendTextStyle) -> bool {
     style.family().as_str() == "rimmed"
 }

@@ -30,15 +30,11 @@ impl DataFile {
 
     /// Writes the file: comma separated, one line a row, each ended by a line feed.
     pub fn to_csv(&self) -> String {
-        let mut csv = String::new();
-        for line in std::iter::once(&self.header).chain(&self.rows) {
-            for (index, cell) in line.iter().enumerate() {
-                csv.push_str(if index > 0 { "," } else { "" });
-                csv.push_str(&quoted(cell));
-            }
-            csv.push('\n');
-        }
-        csv
+        let line = |cells: &Vec<String>| {
+            let cells: Vec<Cow<'_, str>> = cells.iter().map(|cell| quoted(cell)).collect();
+            cells.join(",") + "\n"
+        };
+        [&self.header].into_iter().chain(&self.rows).map(line).collect()
     }
 }
 
@@ -64,7 +60,7 @@ pub struct DataFile {
 }
 
 fn quoted(cell: &str) -> Cow<'_, str> {
-    if cell.as_bytes().iter().any(|byte| matches!(byte, b',' | b'"' | b'\n')) {
+    if cell.contains([',', '"', '\n']) {
         format!("\"{}\"", cell.replace('"', "\"\"")).into()
     } else {
         cell.into()

@@ -22,7 +22,6 @@ pub fn find_table<'a>(tables: &'a Tables, name: &str) -> Result<&'a Table, Missi
     }
 }
 
-/// Returns the cell with an address, `cascade.orbits[n=3].delta`.
 #[track_caller]
 pub fn find_cell<'a>(tables: &'a Tables, address: &str) -> Result<&'a Value, Missing> {
     let table = find_table(tables, table_name(address).unwrap_or(address))?;

@@ -21,7 +21,6 @@ pub struct Table {
     pub(crate) fault: Option<String>,
 }
 
-/// What all cells below one another are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Column {
     pub(super) name: &'static str,
@@ -235,7 +234,6 @@ pub(super) fn key_to_text(key: &Number) -> String {
     }
 }
 
-/// Returns whether a cell has exactly this number.
 fn is_number(cell: &Value, wanted: f64) -> bool {
     match cell.number {
         Number::Integer(n) => n as f64 == wanted && wanted as i128 == n,

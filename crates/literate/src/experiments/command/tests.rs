@@ -9,13 +9,11 @@ echo '"digits": {"ratio": 3}, "units": {"pi": "m"}, "meanings": {"ratio": "of ar
 echo "[[$n, 3.125, 0.04, \"sh\", 7, 0.12345], [2, null, 0.1, null, null, null]]}}"
 "#;
 
-/// Runs a command in the project of a folder, with a script in its file `toy.sh`.
 fn run(top: &Path, script: &str, command: Command) -> Result<Output, String> {
     std::fs::write(top.join("toy.sh"), script).unwrap();
     command.run(top, &Session::toy(Store::nowhere(), Progress::silent()))
 }
 
-/// Returns what a script writes to a file `out`.
 fn out(top: &Path, script: &str, command: Command) -> String {
     let output = run(top, script, Command { writes: &["out"], ..command }).unwrap();
     String::from_utf8(output.files["out"].clone()).unwrap()
