@@ -37,14 +37,12 @@ impl Paper {
         };
         let mut documents = self.edition.documents.iter();
         if documents.len() > 0 && documents.all(|document| document.files(&templates).is_empty()) {
-            let names: Vec<&str> =
-                self.edition.documents.iter().map(|document| document.prose).collect();
+            let names: Vec<&str> = self.edition.documents.iter().map(|one| one.prose).collect();
             let folder = prose.unwrap_or(Path::new(self.prose)).display();
             let problem = format!("{folder}: no prose is there; give the folder of");
             return Err(Failure::input(format!("{problem} {}", names.join(", "))));
         }
-        let own =
-            self.experiments.iter().flat_map(|experiment| experiment.own()).copied().collect();
+        let own = self.experiments.iter().flat_map(|one| one.own()).copied().collect();
         let code = Code::of_program(project, self.prose, own).map_err(Failure::input)?;
         Ok(Session { project, templates, profile, store, progress, code })
     }
@@ -100,11 +98,11 @@ pub fn make_report(
         progress.check()?;
         figure.figure(&results)
     };
-    let figures =
-        paper.figures.par_iter().with_max_len(1).map(figure).collect::<Result<Vec<Figure>, _>>()?;
+    let figures = paper.figures.par_iter().with_max_len(1).map(figure);
+    let figures = figures.collect::<Result<Vec<Figure>, _>>()?;
     let checks = Judge::new(&published, &paper.rules, &results).checks()?;
-    let statements: Vec<Check> =
-        checks.iter().filter(|check| check.kind.is_printed()).cloned().collect();
+    let mut statements = checks.clone();
+    statements.retain(|check| check.kind.is_printed());
     let values = paper.registry(&results, &published)?;
     let rows = paper.rows.map(|rows| rows(&results, &statements)).transpose()?.unwrap_or_default();
     let lab = paper.lab.map(|lab| lab(session, &results)).transpose()?.flatten();

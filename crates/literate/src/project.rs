@@ -142,12 +142,11 @@ impl Project {
 
     /// Reads a file by its path from the top of the project.
     pub fn text(&self, path: &str) -> io::Result<String> {
+        let missing = "it is not there; run this in the project";
         match (self.find(path), self.copied(path)) {
             (Some(place), _) => input::read_text(&place),
             (None, Some(text)) => Ok(text.into()),
-            _ => {
-                Err(io::Error::new(ErrorKind::NotFound, "it is not there; run this in the project"))
-            }
+            _ => Err(io::Error::new(ErrorKind::NotFound, missing)),
         }
     }
 }

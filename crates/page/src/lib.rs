@@ -260,11 +260,8 @@ mod tests {
     #[test]
     fn what_is_no_run_and_no_probability_is_refused() {
         let numbers = vec![50.0, 20.0, 30.0, 1.0, 1.0, 1.5, 0.8, 0.0, 0.0];
-        let message = Page { numbers, ..Page::default() }.open().unwrap_err();
-        assert!(
-            message.starts_with("forcing: it has 0 pairs for 30 masses; give one"),
-            "{message}"
-        );
+        let error = Page { numbers, ..Page::default() }.open().unwrap_err();
+        assert!(error.starts_with("forcing: it has 0 pairs for 30 masses; give one"), "{error}");
         assert_eq!([law(100, f64::NAN), law(100, 0.02)], [2, 0]);
     }
 }

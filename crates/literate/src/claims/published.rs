@@ -119,11 +119,12 @@ impl Published {
     /// Refuses a parameter with another number than the one that a check uses.
     pub(super) fn compare(&self, id: &str, number: f64) -> Result<(), PublishedError> {
         let value = self.parameter(id)?;
+        if value == number {
+            return Ok(());
+        }
+        let problem = format!("the parameter {id:?} is {value}, and its check uses {number}");
         let remedy = "restore the one that is wrong";
-        let fault =
-            format!("the parameter {id:?} is {value}, and its check uses {number}; {remedy}");
-        let fault = PublishedError(format!("published.toml: {fault}"));
-        if value == number { Ok(()) } else { Err(fault) }
+        Err(PublishedError(format!("published.toml: {problem}; {remedy}")))
     }
 }
 

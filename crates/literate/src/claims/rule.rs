@@ -142,20 +142,21 @@ pub struct Judge<'a> {
     pub(super) published: &'a Published,
     pub(super) rules: &'a [Rule],
     pub(super) results: &'a Results,
+    pub(super) level: CheckLevel,
 }
 
 impl<'a> Judge<'a> {
     /// Makes a judge of these statements by these rules and results.
     pub fn new(published: &'a Published, rules: &'a [Rule], results: &'a Results) -> Judge<'a> {
-        Judge { published, rules, results }
+        Judge { published, rules, results, level: level_of(rules) }
     }
 
     pub(super) fn check(&self, rule: &Rule, statement: &Statement) -> Judged {
-        let Judge { published, rules, results } = *self;
+        let Judge { published, results, level, .. } = *self;
         let allows_errors = rule.is_statistical || !rule.is_of_statement();
         // Small samples may decide nothing.
         let is_strict = results.profile == Profile::Full && !rule.may_stay_open;
-        let level = allows_errors.then(|| level_of(rules));
+        let level = allows_errors.then_some(level);
         let judged = rule.judged(&Evidence { statement, results, published, level, is_strict });
         judged.map_err(|error| Error::Check(rule.id.into(), Box::new(error)))
     }
@@ -164,7 +165,7 @@ impl<'a> Judge<'a> {
     /// statement without a rule stays open and [fails](Check::fails); a rule without a statement,
     /// or a number, is an error.
     pub fn checks(&self) -> Result<Vec<Check>, Error> {
-        let Judge { published, rules, results } = *self;
+        let Judge { published, rules, results, .. } = *self;
         check_rules(published, rules)?;
         results.tables()?;
         let mut checks = Vec::new();
@@ -273,8 +274,8 @@ mod tests {
     fn shares_equal_values_and_few_are_not_certain() {
         use crate::sample::{Sampled, average, share};
         let judge = |sampled: Option<Sampled>, judge: fn(&Evidence<'_>) -> Judged| {
-            let table =
-                Table::builder("toy.all", &[()], |()| 9).estimate("mean", "1", "", |()| sampled);
+            let rows = Table::builder("toy.all", &[()], |()| 9);
+            let table = rows.estimate("mean", "1", "", |()| sampled);
             let published = Published::parse(PUBLISHED).unwrap();
             let results = Results::made_up(vec![table.done()]);
             let rule = [Rule::new("rise", judge).statistical()];

@@ -121,9 +121,8 @@ impl Words {
     pub(crate) fn read(templates: &Templates, ids: &[&str]) -> Result<Words, String> {
         let mut words = Words::default();
         let is_known = |key: &String| key == STATEMENT || KEYS.iter().any(|k| key.starts_with(k));
-        let is_of_claims =
-            |(path, _): &(&str, &str)| path.starts_with("claims/") && path.ends_with(".toml");
-        for (path, file) in templates.iter().filter(is_of_claims) {
+        let is_ours = |path: &str| path.starts_with("claims/") && path.ends_with(".toml");
+        for (path, file) in templates.iter().filter(|(path, _)| is_ours(path)) {
             let fault = |error| format!("{path}:{}", toml_fault(file, &error));
             let mut checks: BTreeMap<String, Texts> = toml::from_str(file).map_err(fault)?;
             let shared = checks.remove("shared").unwrap_or_default();
@@ -198,10 +197,10 @@ mod tests {
     const RISE: &str = "[shared]\nreason = \"ours\"\n[rise]\nfound = \"{share:2} of {all}\"\ntolerance = \"none\"\n";
 
     fn judged(file: &str, rule: Rule) -> Result<Check, String> {
-        let statement =
+        let entry =
             "[[statement]]\nid = \"rise\"\nplace = \"a\"\nstatement = \"b\"\nprinted = \"c\"";
         let words = Words::read(&Templates::from_files([("claims/a.toml", file)]), &[rule.id])?;
-        let published = Published { words, ..Published::parse(statement).unwrap() };
+        let published = Published { words, ..Published::parse(entry).unwrap() };
         let (rules, results) = ([rule], Results::made_up(Vec::new()));
         let checks = Judge::new(&published, &rules, &results).checks();
         Ok(checks.map_err(|error| error.to_string())?.remove(0))

@@ -64,8 +64,7 @@ impl Judge<'_> {
                 unmoved.push(Unmoved { rule, statement, verdict, read: copy.read() });
             }
         }
-        let names: BTreeSet<String> =
-            unmoved.iter().flat_map(|unmoved| unmoved.read.clone()).collect();
+        let names: BTreeSet<String> = unmoved.iter().flat_map(|rule| rule.read.clone()).collect();
         TRYING.set(true);
         for name in &names {
             let mut try_all = |wrong: &dyn Fn(Change) -> Option<Results>| {

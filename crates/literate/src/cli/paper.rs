@@ -52,8 +52,7 @@ pub(super) struct Args {
 pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     let began = Instant::now();
     let Args { options, force, .. } = args;
-    let find =
-        |name: &String| paper.find_figure(name).map_err(|error| error.in_context("--figure"));
+    let find = |name: &String| paper.find_figure(name).map_err(|e| e.in_context("--figure"));
     let figures = args.figure.iter().map(find).collect::<Result<Vec<&FigureSpec>, Failure>>()?;
     let is_whole = figures.is_empty();
     let mut needs = paper.experiments.clone();
@@ -100,8 +99,8 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     })?;
     folder::write(&out, &report, force).map_err(at_option)?;
     let number = count(report.len(), "file");
-    let mut line =
-        format!("{}: {number} in {:.1} s", display_path(&out), began.elapsed().as_secs_f64());
+    let (place, seconds) = (display_path(&out), began.elapsed().as_secs_f64());
+    let mut line = format!("{place}: {number} in {seconds:.1} s");
     if is_whole {
         let pages: Vec<&str> = paper.edition.documents.iter().map(|one| one.page).collect();
         line += &format!(": {}", pages.join(", "));

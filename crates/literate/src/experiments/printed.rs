@@ -38,10 +38,8 @@ impl<'de> Deserialize<'de> for Cell {
     fn deserialize<D: Deserializer<'de>>(reader: D) -> Result<Self, D::Error> {
         let text = Box::<RawValue>::deserialize(reader)?.get().to_string();
         let beyond = |_| format!("{text} is beyond double precision (print it in another unit)");
-        Ok(Cell {
-            json: serde_json::from_str(&text).map_err(beyond).map_err(D::Error::custom)?,
-            text,
-        })
+        let json = serde_json::from_str(&text).map_err(beyond).map_err(D::Error::custom)?;
+        Ok(Cell { json, text })
     }
 }
 
@@ -68,9 +66,8 @@ pub(super) fn tables_by_name<'de, D: Deserializer<'de>>(
             let mut tables = BTreeMap::new();
             while let Some((name, table)) = map.next_entry::<String, PrintedTable>()? {
                 if tables.insert(name.clone(), table).is_some() {
-                    return Err(A::Error::custom(format!(
-                        "two tables have the name {name} (rename one)"
-                    )));
+                    let problem = format!("two tables have the name {name} (rename one)");
+                    return Err(A::Error::custom(problem));
                 }
             }
             Ok(tables)

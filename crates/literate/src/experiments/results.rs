@@ -89,17 +89,14 @@ impl Results {
     pub(crate) fn tables(&self) -> Result<&Tables, Error> {
         let again = || {
             let results = self.results.iter();
-            self.joined(
-                results.flat_map(|(experiment, result)| tables(*experiment, result)).collect(),
-            )
+            self.joined(results.flat_map(|(one, result)| tables(*one, result)).collect())
         };
         self.tables.get_or_init(again).as_ref().map_err(|fault| Error(Fault::Table(fault.clone())))
     }
 
     #[cfg(test)]
     pub(crate) fn made_up(tables: Vec<Table>) -> Self {
-        let tables: Tables =
-            tables.into_iter().map(|table| (table.name(), Arc::new(table))).collect();
+        let tables = tables.into_iter().map(|table| (table.name(), Arc::new(table))).collect();
         let (results, derived) = Default::default();
         let (tables, read) = (OnceLock::from(Ok(tables)), Mutex::default());
         Results { profile: Profile::Full, results, derived, tables, read }
@@ -168,8 +165,7 @@ impl Results {
         let identities: Vec<Identity> = identities.collect::<Result<_, Error>>()?;
         let identified = experiments.par_iter().zip(&identities).with_max_len(1);
         let saved = identified.map(|(experiment, identity)| {
-            let read =
-                || experiment.read_or_run(identity, session).map_err(|error| error.to_string());
+            let read = || experiment.read_or_run(identity, session).map_err(|e| e.to_string());
             let saved = || experiment.load_saved(identity, &session.store);
             made(*experiment, || if experiment.is_saved() { saved() } else { read() })
         });

@@ -195,8 +195,8 @@ fn write_whole(path: &Path, content: &str) -> std::io::Result<()> {
     std::fs::create_dir_all(path.parent().unwrap_or(path))?;
     let _moment = WRITING.read();
     let temporary = path.with_extension(format!("json.{}", std::process::id()));
-    let saved =
-        std::fs::write(&temporary, content).and_then(|()| std::fs::rename(&temporary, path));
+    let written = std::fs::write(&temporary, content);
+    let saved = written.and_then(|()| std::fs::rename(&temporary, path));
     saved.inspect_err(|_| drop(std::fs::remove_file(&temporary)))
 }
 

@@ -95,10 +95,11 @@ pub(super) type Outcome = Result<(), DrawingErrorKind<Error>>;
 /// Returns a colour, which must be one of ours: others have no form for light and for dark pages.
 fn in_palette(colour: BackendColor) -> Result<RGBColor, Error> {
     let (r, g, b) = colour.rgb;
-    let known = PALETTE.iter().any(|(_, known)| *known == RGBColor(r, g, b));
-    let missing =
-        || Error(Fault::Drawing(format!("#{r:02x}{g:02x}{b:02x} is no colour of the prelude")));
-    known.then_some(RGBColor(r, g, b)).ok_or_else(missing)
+    if PALETTE.iter().any(|(_, known)| *known == RGBColor(r, g, b)) {
+        return Ok(RGBColor(r, g, b));
+    }
+    let problem = format!("#{r:02x}{g:02x}{b:02x} is no colour of the prelude");
+    Err(Error(Fault::Drawing(problem)))
 }
 
 impl Drawing {

@@ -278,9 +278,9 @@ mod tests {
     fn axis(is_log: bool, values: &[f64]) -> (Axis, String) {
         let options = AxisOptions { label: "*x* (s)".into(), is_log, range: None };
         let axis = options.axis(values.iter().copied());
-        let labels: Vec<&str> =
-            axis.ticks.iter().filter_map(|tick| tick.label.as_deref()).collect();
-        (axis.clone(), labels.join(" "))
+        let labels = axis.ticks.iter().filter_map(|tick| tick.label.as_deref());
+        let labels = labels.collect::<Vec<_>>().join(" ");
+        (axis, labels)
     }
 
     #[test]

@@ -48,9 +48,7 @@ impl<'a, R> Building<'a, R> {
         let experiment = self.table.name.split('.').next().unwrap_or_default();
         let markdown = match unit {
             "1" | "text" => String::new(),
-            unit => {
-                format!("${}$", unit.replace("omega", r"\omega ").replace(" ^", "^").trim_end())
-            }
+            _ => format!("${}$", unit.replace("omega", r"\omega ").replace(" ^", "^").trim_end()),
         };
         self.table.columns.push(Column { name, unit });
         for (row, (_, cells)) in self.rows.iter().zip(&mut self.table.rows) {
@@ -203,8 +201,7 @@ impl<'a, R> Building<'a, R> {
         let (mut seen, mut faults) = (BTreeSet::new(), Vec::new());
         for (row, cells) in &mut self.table.rows {
             let keyed = columns.iter().zip(&*cells).take(keys);
-            let keyed =
-                keyed.map(|(key, cell)| format!("{}={}", key.name, key_to_text(&cell.number)));
+            let keyed = keyed.map(|(key, cell)| format!("{}={}", key.name, key_to_text(cell)));
             *row = keyed.collect::<Vec<_>>().join(",");
             if !seen.insert(row.clone()) {
                 faults.push(format!("two rows have the keys [{row}]; add a key that differs"));

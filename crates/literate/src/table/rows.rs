@@ -132,7 +132,7 @@ impl Table {
     pub(crate) fn key_values(&self, key: &str) -> Vec<String> {
         let index = self.keys().position(|name| name == key);
         let cells = self.rows.iter().filter_map(|(_, cells)| cells.get(index?));
-        without_repeats(cells.map(|cell| key_to_text(&cell.number)))
+        without_repeats(cells.map(key_to_text))
     }
 
     pub(crate) fn cells(&self) -> impl Iterator<Item = &Value> {
@@ -152,9 +152,7 @@ impl Table {
             let Some(value) = cell.as_f64() else { continue };
             cell.number = match (change(value, cell.standard_error()), &cell.number) {
                 (None, _) => Number::None,
-                (Some(value), Number::Real { digits, .. }) => {
-                    Number::Real { value, digits: *digits }
-                }
+                (Some(value), &Number::Real { digits, .. }) => Number::Real { value, digits },
                 (Some(value), _) => Number::Integer(value as i128),
             };
         }
@@ -191,7 +189,7 @@ impl Table {
         for (_, cells) in &self.rows {
             let mut names = vec![String::new()];
             for ((key, values), cell) in keys.iter().zip(cells) {
-                let value = key_to_text(&cell.number);
+                let value = key_to_text(cell);
                 let ends =
                     [("first", values.first()), ("last", values.last()), (&value, Some(&value))];
                 let shorter = std::mem::take(&mut names);
@@ -219,8 +217,8 @@ fn without_repeats<T: PartialEq>(items: impl Iterator<Item = T>) -> Vec<T> {
     distinct
 }
 
-pub(super) fn key_to_text(key: &Number) -> String {
-    match key {
+pub(super) fn key_to_text(key: &Value) -> String {
+    match &key.number {
         Number::None => "none".into(),
         Number::Integer(n) => n.to_string(),
         Number::Real { value, digits: Digits::Text(text) }
@@ -290,9 +288,9 @@ mod tests {
 
     #[test]
     fn a_column_without_an_origin_has_that_of_its_table() {
-        let table =
-            Table::builder("test.x", &[2.0], |_| 1).table_computed_by(Origin("table".into()));
-        let table = table.real("x", "1", 1, "", |x| *x).computed_by(Origin("x".into()), &["x"]);
+        let [of_table, of_x] = ["table", "x"].map(|item| Origin(item.into()));
+        let table = Table::builder("test.x", &[2.0], |_| 1).table_computed_by(of_table);
+        let table = table.real("x", "1", 1, "", |x| *x).computed_by(of_x, &["x"]);
         let table = table.real("y", "1", 1, "", |x| -x).done();
         assert!(table.cells().map(|cell| cell.source.as_str()).eq(["x", "table"]));
     }
@@ -309,13 +307,10 @@ mod tests {
     fn what_is_not_there_is_an_error_with_the_place_that_asks_and_the_nearest_names() {
         let table = table();
         let keys = [("r", 0.8), ("sigma", 0.30000000000000004)];
-        let missing_row = table.number(&keys, "mean").unwrap_err();
-        assert!(
-            missing_row.to_string().contains("in crates/literate/src/table/rows.rs:"),
-            "{missing_row}"
-        );
+        let missing_row = table.number(&keys, "mean").unwrap_err().to_string();
+        assert!(missing_row.contains("in crates/literate/src/table/rows.rs:"), "{missing_row}");
         let nearest = "row r=0.8,sigma=0.30000000000000004; nearest: r=0.8,sigma=0.3, r=0.8,";
-        assert!(missing_row.to_string().contains(nearest), "{missing_row}");
+        assert!(missing_row.contains(nearest), "{missing_row}");
         let tables = Tables::from([(table.name(), Arc::new(table.clone()))]);
         let message = |address| find_cell(&tables, address).unwrap_err().to_string();
         assert!(message("test.rise[r=0,sigma=0.1].meen").contains("no column meen; nearest: mean"));
@@ -373,6 +368,6 @@ mod tests {
         assert_eq!(odd.to_plain_text(), "9007199254740993");
         assert_eq!(DataFile::from_table(&table).rows[2], ["18446744073709551615"; 2]);
         let even = table.select(&[("seed", 9_007_199_254_740_992.0)]).unwrap();
-        assert_eq!((even.len(), key_to_text(&even[0][0].number)), (1, "9007199254740992".into()));
+        assert_eq!((even.len(), key_to_text(&even[0][0])), (1, "9007199254740992".into()));
     }
 }
