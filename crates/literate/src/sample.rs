@@ -4,7 +4,6 @@
 use impact_numerics::estimates::{self, LEVEL, with_error};
 use impact_numerics::statistics::{Estimate, wilson};
 use serde::{Deserialize, Serialize};
-use std::ops::Deref;
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -27,16 +26,9 @@ impl Sample {
 /// An estimate that knows how many values it is from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sampled {
-    pub(crate) estimate: Estimate,
+    /// The estimate.
+    pub estimate: Estimate,
     pub(crate) sample: Sample,
-}
-
-impl Deref for Sampled {
-    type Target = Estimate;
-
-    fn deref(&self) -> &Estimate {
-        &self.estimate
-    }
 }
 
 impl From<Estimate> for Sampled {

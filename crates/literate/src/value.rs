@@ -4,7 +4,7 @@
 //! it, it becomes a [`Value`] with an id, and a template names that id: `«v.version»`. The
 //! printed digits follow from the value itself, so that prose, tables and `values.json` agree.
 
-use crate::sample::{Sample, Sampled};
+use crate::sample::Sample;
 use impact_numerics::statistics::Estimate;
 use serde::{Deserialize, Deserializer, Serialize};
 
@@ -77,12 +77,6 @@ from_integers!(i32 i64 u32 u64 usize);
 impl From<String> for Number {
     fn from(words: String) -> Number {
         Number::Text(words)
-    }
-}
-
-impl From<Sampled> for Number {
-    fn from(found: Sampled) -> Number {
-        found.estimate.into()
     }
 }
 

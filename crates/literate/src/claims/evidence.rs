@@ -141,7 +141,7 @@ impl Evidence<'_> {
     fn chance(&self, cell: &Value) -> Result<Option<[f64; 2]>, Error> {
         let Provenance::Ensemble { sample, .. } = cell.kind else { return Ok(Some([0.0; 2])) };
         let sampled = Sampled { estimate: cell.estimate().ok_or(Error::Undecided)?, sample };
-        if sample.is_unknown() && sampled.error == 0.0 {
+        if sample.is_unknown() && sampled.estimate.error == 0.0 {
             return Ok(None);
         }
         let room = self.level()?.room(sampled);
