@@ -15,9 +15,8 @@ use rayon::prelude::*;
 use std::path::Path;
 
 impl Paper {
-    /// Returns a run with the prose of a folder, or else that of the project, or the copy inside.
-    /// Fails if two things have one name, if a file or the prose is missing, or if the program is
-    /// older than its code.
+    /// Returns a run with the prose of a folder, or else of the project or its copy. Fails if
+    /// names are not unique, a file is missing, or the program is older than its code.
     pub fn session(
         &self,
         prose: Option<&Path>,

@@ -84,9 +84,8 @@ impl Code {
     }
 }
 
-/// Returns a file whose hash differs from that at the first run of this program, or `None` if there
-/// is no such file: the times by which cargo goes do not tell when an older file is put back. The
-/// first run notes all hashes in a file beside the program, where it may write.
+/// Returns a file whose hash differs from that at the first run, or `None`: by its time cargo does
+/// not notice an older file that is put back. The first run notes all beside the program.
 fn differs_from_first_run(
     program: &Path,
     built: SystemTime,
@@ -127,17 +126,16 @@ fn variables(program: &Path, files: &[PathBuf]) -> BTreeMap<String, String> {
             packages.insert(root, list);
         }
     }
-    let is_of_cargo = |name: &str| {
-        ["CARGO", "CLIPPY"].iter().any(|start| name.starts_with(start))
-            || ["OUT_DIR", "COMPILER"].contains(&name)
-    };
-    let lines = packages.values().flat_map(|list| list.lines());
-    let pairs = lines.filter_map(|line| line.strip_prefix("# env-dep:"));
-    let pairs = pairs.map(|pair| pair.split_once('=').unwrap_or((pair, "")));
-    let pairs = pairs.filter(|(name, _)| !is_of_cargo(name));
-    pairs
-        .map(|(name, value)| (format!("{name} when compiled"), sha256(value)[..16].into()))
-        .collect()
+    let mut variables = BTreeMap::new();
+    for line in packages.values().flat_map(|list| list.lines()) {
+        let Some(pair) = line.strip_prefix("# env-dep:") else { continue };
+        let (name, value) = pair.split_once('=').unwrap_or((pair, ""));
+        let is_of_cargo = name.starts_with("CARGO") || name.starts_with("CLIPPY");
+        if !is_of_cargo && !["OUT_DIR", "COMPILER"].contains(&name) {
+            variables.insert(format!("{name} when compiled"), sha256(value)[..16].into());
+        }
+    }
+    variables
 }
 
 fn older_than(path: &str) -> String {
@@ -187,8 +185,8 @@ fn real(path: &Path) -> PathBuf {
     real
 }
 
-/// Returns the path of a file from a folder, with `/` and `..`; what build scripts made is found in
-/// a folder with another name on each machine.
+/// Returns the path of a file from a folder; what build scripts made lies in one with another name
+/// on each machine.
 fn name(path: &Path, top: &Path) -> String {
     let path_text = path.to_string_lossy();
     if let Some((folder, made)) = path_text.rsplit_once("/out/")

@@ -28,18 +28,14 @@ impl Names {
     /// differs only in the case of letters or in `.`, `:` and `-`.
     pub fn add(&mut self, name: &str, place: &str) -> Result<(), String> {
         let file_name = name.to_lowercase().replace(['.', ':'], "-");
-        let Some((other, earlier_place)) = self.0.insert(file_name, (name.into(), place.into()))
-        else {
-            return Ok(());
+        let earlier = self.0.insert(file_name, (name.into(), place.into()));
+        let Some((other, earlier_place)) = earlier else { return Ok(()) };
+        let reason = "which differ in case or in . and - only, so that they have one file";
+        let names = match other == name {
+            true => format!("name {name}"),
+            false => format!("names {other} and {name}, {reason}"),
         };
-        Err(if other == name {
-            format!("the name {name}: {earlier_place} and {place}; rename one")
-        } else {
-            let reason = "which differ in case or in . and - only, so that they have one file";
-            format!(
-                "the names {other} and {name}, {reason}: {earlier_place} and {place}; rename one"
-            )
-        })
+        Err(format!("the {names}: {earlier_place} and {place}; rename one"))
     }
 }
 

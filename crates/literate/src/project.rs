@@ -18,8 +18,7 @@ pub struct Project {
     /// Paths and texts of what it reads when it runs; empty unless it travels alone.
     pub copy: &'static [(&'static str, &'static str)],
     /// Code that changes no result, by the beginning or end of its path, with the reason. All other
-    /// code that cargo built the program from counts for each result, unless it is an experiment's
-    /// own.
+    /// code of the program counts for each result, unless it is an experiment's own.
     pub apart: &'static [(&'static str, &'static str)],
     /// Code that counts for each result although it lies in a folder that is apart.
     pub shared: &'static [&'static str],
@@ -37,9 +36,8 @@ impl Project {
         Project { sources, copy: &[], apart: &[], shared: &[] }
     }
 
-    /// Returns whether a file counts for the result of an experiment with some code of its own;
-    /// `owned` is what all experiments list as their own. What is apart counts only for one that
-    /// lists it by its whole path.
+    /// Returns whether a file counts for an experiment with some code of its own, of all that is
+    /// `owned`. What is apart counts only for one that lists it by its whole path.
     pub fn counts(&self, path: &str, own: &[&str], owned: &[&str]) -> bool {
         let among = |places: &[&str]| places.iter().any(|place| is_in(path, place));
         let is_apart = |(place, _): &(&str, _)| path.ends_with(place) || is_in(path, place);

@@ -41,9 +41,8 @@ fn with_values(values: usize, estimate: Estimate) -> Sampled {
     Sampled { estimate, sample: Sample::Values(values as u64) }
 }
 
-/// Returns the mean of a sample, or `None` if it has fewer than two values. Equal values have the
-/// error zero, by which no check judges: use [`share`] where each is yes or no, and a number
-/// without an error where there is no chance.
+/// Returns the mean of a sample, or `None` if it has fewer than two values. Equal ones have the
+/// error zero, by which no check judges: use [`share`], or a number without an error.
 pub fn average(values: &[f64]) -> Option<Sampled> {
     let mean = estimates::average(values)?;
     // Equal values have no error, also none by rounding.
@@ -51,9 +50,8 @@ pub fn average(values: &[f64]) -> Option<Sampled> {
     Some(with_values(values.len(), if are_equal { with_error(values[0], 0.0) } else { mean }))
 }
 
-/// Returns the share `part`/`whole` with its binomial error and Wilson's interval, or `None` if
-/// `whole` is 0. Shares of 0 and 1 have the error of Wilson's interval, and checks use the exact
-/// interval.
+/// Returns the share `part`/`whole` with its binomial error, or Wilson's of 0 and 1, and Wilson's
+/// interval, or `None` if `whole` is 0. Checks use the exact interval.
 pub fn share(part: u64, whole: u64) -> Option<Sampled> {
     let binomial = estimates::share(part, whole)?;
     let error = if binomial.error > 0.0 { binomial.error } else { 1.0 / (whole as f64 + 1.0) };

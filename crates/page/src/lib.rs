@@ -27,8 +27,7 @@ struct Run {
     until: f64,
     /// Whether each gap has an impact in the window.
     hit: Vec<bool>,
-    /// Of each impact the time, the gap as the engine numbers it, and the closing speed; eight
-    /// bytes each, the lowest first, doubles bit by bit.
+    /// Of each impact the time, the gap of the engine and the closing speed, as eight bytes each.
     hash: Sha256,
 }
 

@@ -109,10 +109,9 @@ impl Evidence<'_> {
         Ok(Check { basis: Basis::PrintedDigit, ..check })
     }
 
-    /// Judges the number of a cell by its standard error alone: the printed one lies no further
-    /// than chance at the level of the statistical checks allows, by Student's distribution for the
-    /// mean of few values and the exact interval for a share. Equal values have no error, and leave
-    /// a statement of another number undecided.
+    /// Judges the number of a cell by its standard error alone: the printed one lies within what
+    /// chance allows at the level of the statistical checks, by Student's distribution for few
+    /// values and exactly for a share. Equal values, without an error, leave others undecided.
     #[track_caller]
     pub fn within_errors(&self, address: &str) -> Judged {
         let cell = self.results.cell(address)?;
@@ -148,8 +147,8 @@ impl Evidence<'_> {
         Ok(room.map(|room| room.map(|distance| distance * scale(cell))))
     }
 
-    /// Starts the check of a cell: the printed number lies no further from it than `room` and
-    /// chance allow. If chance is unknown, a larger distance leaves the check undecided.
+    /// Starts the check of a cell: the printed number lies within `room` and chance of it, or the
+    /// check is undecided if chance is unknown.
     fn compared(&self, cell: &Value, room: f64, chance: Option<[f64; 2]>) -> Judged {
         let estimate = cell.estimate().ok_or(Error::Undecided)?;
         let (printed, scale) = (self.statement.number()?, scale(cell));

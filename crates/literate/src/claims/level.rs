@@ -29,9 +29,8 @@ impl CheckLevel {
         CheckLevel::for_checks(self.claims.max(1) * rows.max(1)).quantile
     }
 
-    /// Returns how far below and above an estimate the true number may lie by chance, or `None` if
-    /// that is unknown: the error is zero, as that of equal values is, or the sample has fewer than
-    /// two.
+    /// Returns how far below and above an estimate the true number may lie by chance, or `None` for
+    /// an error of zero, as equal values have, or a sample of fewer than two.
     pub(crate) fn room(&self, sampled: Sampled) -> Option<[f64; 2]> {
         let (Estimate { value, error, .. }, level) = (sampled.estimate, 1.0 - self.each);
         match sampled.sample {

@@ -37,9 +37,8 @@ impl Rule {
         Rule { id, relation, reads, uses, basis, is_statistical, may_stay_open, place, judge }
     }
 
-    /// Makes it the rule of a relation between numbers that must hold. It may allow for standard
-    /// errors at the level of the statistical checks, and does not count as one of them. What it
-    /// says may be empty, and then stands among the texts of the checks.
+    /// Makes it the rule of a relation that must hold. It may allow for errors at the level of the
+    /// statistical checks, and is not counted. Empty words stand among the texts of the checks.
     pub fn relation(self, relation: &'static str) -> Rule {
         Rule { relation: Some(relation), ..self }
     }
@@ -66,8 +65,8 @@ impl Rule {
         Rule { uses: parameters.to_vec(), ..self }
     }
 
-    /// Lets it stay open, in the full profile too, where a number that it needs is not there, and
-    /// lets its tolerance be as large as the printed number; both fail otherwise.
+    /// Lets it stay open, in the full profile too, where a number is not there, and lets its
+    /// tolerance be as large as the printed number; both fail otherwise.
     pub fn may_stay_open(self) -> Rule {
         Rule { may_stay_open: true, ..self }
     }
@@ -161,9 +160,8 @@ impl<'a> Judge<'a> {
         judged.map_err(|error| Error::Check(rule.id.into(), Box::new(error)))
     }
 
-    /// Judges all statements, first those that rest on a measure of ours, and then all relations. A
-    /// statement without a rule stays open and [fails](Check::fails); a rule without a statement,
-    /// or a number, is an error.
+    /// Judges all statements, first those that rest on a measure of ours, then all relations. One
+    /// without a rule stays open and [fails](Check::fails); a rule without one is an error.
     pub fn checks(&self) -> Result<Vec<Check>, Error> {
         let Judge { published, rules, results, .. } = *self;
         check_rules(published, rules)?;

@@ -14,8 +14,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 /// Makes a wrong number, or no number, of a number and its standard error.
 type Change = fn(f64, f64) -> Option<f64>;
 
-/// The changes, small ones first: another first digit, ten standard errors up or down, another
-/// sign, another size, no number.
+/// The changes, small ones first: first digit, ten standard errors, sign, size, no number.
 const CHANGES: [Change; 7] = [
     |value, _| with_other_digit(&value.to_string()).parse().ok(),
     |value, error| Some(value + 10.0 * error),

@@ -28,9 +28,8 @@ pub struct Command {
     /// Its name, with which the names of its tables begin.
     pub name: &'static str,
     /// The program and its arguments, with blanks between, and quotes as in a shell. A program is
-    /// found in `PATH` unless it has a slash; its bytes are part of what identifies a saved result.
-    /// So are arguments that are files or folders of the project, alone or behind `=`; they are
-    /// copied to where the command runs.
+    /// found in `PATH` unless it has a slash. Its bytes identify a result, as do arguments that are
+    /// files or folders of the project, alone or behind `=`; they are copied to where it runs.
     pub line: &'static str,
     /// Its parameters in a profile: an object.
     pub parameters: fn(Profile) -> Json,
@@ -277,8 +276,8 @@ impl AnyExperiment for Command {
         self.line.into()
     }
 
-    fn load_saved(&self, identity: &Identity, store: &Store) -> Result<AnyResult, String> {
-        Ok(Arc::new(store.load::<Output>(identity)?))
+    fn load_saved(&self, identity: &Identity, session: &Session<'_>) -> Result<AnyResult, String> {
+        Ok(Arc::new(session.store.load::<Output>(identity)?))
     }
 
     fn read_or_run(&self, identity: &Identity, session: &Session<'_>) -> Result<AnyResult, Error> {

@@ -56,31 +56,15 @@ impl<P, T> Experiment<P, T> {
 pub type AnyResult = Arc<dyn Any + Send + Sync>;
 
 impl<P: Json, T: Json, U: Json> Experiment<P, T, U> {
-    /// Returns its parameters, and as JSON, which reads back to the same.
-    fn known_parameters(&self, profile: Profile) -> Result<(P, serde_json::Value), Error> {
-        let parameters = (self.parameters)(profile);
-        let json = serde_json::to_value(&parameters).map_err(|error| {
-            let problem = format!("JSON cannot hold its parameters: {error}");
-            Error::input(self.name, problem, "use texts as keys, and numbers of 64 bits")
-        })?;
-        // JSON has null for a number that is not finite.
-        if P::deserialize(&json).is_ok_and(|read| read == parameters) {
-            return Ok((parameters, json));
-        }
-        let problem = "a parameter is NaN or infinite, or is not saved";
-        let remedy = "give it a number or `None`, without `#[serde(skip)]`";
-        Err(Error::input(self.name, problem, remedy))
-    }
-
     /// Returns the results of some units, in their order, and how many of them had to be run.
     fn parts(
         &self,
+        (words, cutting): (&str, &Cutting<P, U, T>),
         units: &[Unit],
-        parameters: &P,
         identity: &Identity,
         session: &Session<'_>,
     ) -> Result<(Vec<U>, usize), Error> {
-        let How::Cut(words, cutting) = &self.how else { return Ok((Vec::new(), 0)) };
+        let parameters = (self.parameters)(session.profile);
         let (store, progress, name) = (&session.store, &session.progress, self.name);
         let saved: Vec<Result<U, String>> =
             units.par_iter().map(|unit| store.load(&identity.for_unit(unit))).collect();
@@ -104,7 +88,7 @@ impl<P: Json, T: Json, U: Json> Experiment<P, T, U> {
             if let Ok(part) = saved_part {
                 return Ok(part);
             }
-            let part = (cutting.run_unit)(parameters, unit, &stage, progress)?;
+            let part = (cutting.run_unit)(&parameters, unit, &stage, progress)?;
             store.save(&identity.for_unit(unit), &part)?;
             Ok(part)
         };
@@ -187,8 +171,8 @@ pub trait AnyExperiment: Sync {
         Ok(Some(format!("{reason}; {saved} of {units_in_words} there")))
     }
 
-    /// Returns the saved result, or why it must be run.
-    fn load_saved(&self, identity: &Identity, store: &Store) -> Result<AnyResult, String>;
+    /// Returns the result that is saved or known without a run, or why it must be run.
+    fn load_saved(&self, identity: &Identity, session: &Session<'_>) -> Result<AnyResult, String>;
 
     /// Reads or runs the experiment, and saves the result of a run.
     fn read_or_run(&self, identity: &Identity, session: &Session<'_>) -> Result<AnyResult, Error>;
@@ -231,7 +215,18 @@ impl<P: Json, T: Json, U: Json> AnyExperiment for Experiment<P, T, U> {
     }
 
     fn parameters(&self, profile: Profile) -> Result<serde_json::Value, Error> {
-        Ok(self.known_parameters(profile)?.1)
+        let parameters = (self.parameters)(profile);
+        let json = serde_json::to_value(&parameters).map_err(|error| {
+            let problem = format!("JSON cannot hold its parameters: {error}");
+            Error::input(self.name, problem, "use texts as keys, and numbers of 64 bits")
+        })?;
+        // JSON has null for a number that is not finite.
+        if P::deserialize(&json).is_ok_and(|read| read == parameters) {
+            return Ok(json);
+        }
+        let problem = "a parameter is NaN or infinite, or is not saved";
+        let remedy = "give it a number or `None`, without `#[serde(skip)]`";
+        Err(Error::input(self.name, problem, remedy))
     }
 
     fn item(&self) -> String {
@@ -257,27 +252,28 @@ impl<P: Json, T: Json, U: Json> AnyExperiment for Experiment<P, T, U> {
         identity: &Identity,
         session: &Session<'_>,
     ) -> Result<usize, Error> {
-        let How::Cut(..) = self.how else {
+        let How::Cut(words, cutting) = &self.how else {
             return self.read_or_run(identity, session).map(|_| units.len());
         };
-        let (parameters, _) = self.known_parameters(session.profile)?;
-        Ok(self.parts(units, &parameters, identity, session)?.1)
+        Ok(self.parts((words, cutting), units, identity, session)?.1)
     }
 
-    fn load_saved(&self, identity: &Identity, store: &Store) -> Result<AnyResult, String> {
-        Ok(Arc::new(store.load::<T>(identity)?))
+    fn load_saved(&self, identity: &Identity, session: &Session<'_>) -> Result<AnyResult, String> {
+        if let How::Read(_) = self.how {
+            return self.read_or_run(identity, session).map_err(|error| error.to_string());
+        }
+        Ok(Arc::new(session.store.load::<T>(identity)?))
     }
 
     fn read_or_run(&self, identity: &Identity, session: &Session<'_>) -> Result<AnyResult, Error> {
-        let progress = &session.progress;
-        let (parameters, _) = self.known_parameters(session.profile)?;
+        let parameters = (self.parameters)(session.profile);
         let result = match &self.how {
             How::Read(read) => return Ok(Arc::new(read(session)?)),
-            How::Whole(run, _) => run(&parameters, progress)?,
-            How::Cut(_, cutting) => {
+            How::Whole(run, _) => run(&parameters, &session.progress)?,
+            How::Cut(words, cutting) => {
                 let units = cutting.units(&parameters);
-                let (parts, _) = self.parts(&units, &parameters, identity, session)?;
-                cutting.join_parts(&parameters, &units, parts, progress)?
+                let (parts, _) = self.parts((words, cutting), &units, identity, session)?;
+                cutting.join_parts(&parameters, &units, parts, &session.progress)?
             }
         };
         if self.identity(session)? != *identity {

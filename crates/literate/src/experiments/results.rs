@@ -165,9 +165,7 @@ impl Results {
         let identities: Vec<Identity> = identities.collect::<Result<_, Error>>()?;
         let identified = experiments.par_iter().zip(&identities).with_max_len(1);
         let saved = identified.map(|(experiment, identity)| {
-            let read = || experiment.read_or_run(identity, session).map_err(|e| e.to_string());
-            let saved = || experiment.load_saved(identity, &session.store);
-            made(*experiment, || if experiment.is_saved() { saved() } else { read() })
+            made(*experiment, || experiment.load_saved(identity, session))
         });
         let saved: Vec<_> = saved.collect();
         let (mut stale, mut units_to_run) = (0, Vec::new());

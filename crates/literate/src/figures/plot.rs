@@ -239,9 +239,8 @@ fn without_errors(points: &[(f64, f64)]) -> Vec<(f64, Estimate)> {
 }
 
 impl AxisOptions {
-    /// Makes the axis of the range that was asked for, or the one that holds these values: whole
-    /// decades, or a margin of a twenty-fifth. A linear one has up to six numbers, a logarithmic
-    /// one of less than two decades labels 1, 2 and 5.
+    /// Makes the axis of the range that was asked for, or of whole decades or a margin around the
+    /// values. It has up to six numbers, or 1, 2 and 5 of less than two decades.
     fn axis(&self, values: impl Iterator<Item = f64>) -> Axis {
         let found = axis::range(values.filter(|value| value.is_finite()));
         let [low, high] = self.range.or(found).unwrap_or([0.1, 1.0]);

@@ -150,8 +150,8 @@ pub fn words(size: i32, colour: RGBColor, h: HPos, v: VPos) -> TextStyle<'static
     FontDesc::from(("plain", size)).color(&colour).pos(Pos::new(h, v))
 }
 
-/// Makes the style of words that may stand on something: a rim of the page's colour sets them off.
-/// A style of plotters cannot say so. The name of its font does, which chooses no font here.
+/// Makes the style of words with a rim of the page's colour, which sets them off. A style of
+/// plotters cannot say so; the name of its font does, which chooses no font here.
 pub(crate) fn rimmed(size: i32, colour: RGBColor, h: HPos, v: VPos) -> TextStyle<'static> {
     FontDesc::from(("rimmed", size)).color(&colour).pos(Pos::new(h, v))
 }

@@ -12,14 +12,11 @@ pub type Tables = BTreeMap<&'static str, Arc<Table>>;
 
 #[track_caller]
 pub fn find_table<'a>(tables: &'a Tables, name: &str) -> Result<&'a Table, Missing> {
-    match tables.get(name) {
-        Some(table) => Ok(table),
-        None => {
-            let mut missing = Missing::new(name, no_such("table", name, tables.keys().copied()));
-            missing.remedy = "add its experiment to `needs`";
-            Err(missing)
-        }
-    }
+    let Some(table) = tables.get(name) else {
+        let missing = Missing::new(name, no_such("table", name, tables.keys().copied()));
+        return Err(Missing { remedy: "add its experiment to `needs`", ..missing });
+    };
+    Ok(table)
 }
 
 #[track_caller]

@@ -74,7 +74,7 @@ impl Table {
 
     /// Returns the rows that have these values of keys, whatever those that are left out are.
     #[track_caller]
-    fn select(&self, keys: Keys<'_>) -> Result<Vec<&[Value]>, Missing> {
+    fn select(&self, keys: Keys) -> Result<Vec<&[Value]>, Missing> {
         let mut rows: Vec<&[Value]> = self.rows.iter().map(|(_, cells)| &cells[..]).collect();
         for (name, wanted) in keys {
             let index = self.column(name)?;
@@ -89,7 +89,7 @@ impl Table {
 
     /// Returns the number in the row with these keys.
     #[track_caller]
-    pub fn number(&self, keys: Keys<'_>, column: &str) -> Result<f64, Missing> {
+    pub fn number(&self, keys: Keys, column: &str) -> Result<f64, Missing> {
         let (rows, index) = (self.select(keys)?, self.column(column)?);
         let [row] = rows[..] else {
             let problem = format!("{} rows have these keys; give more of them", rows.len());
@@ -103,19 +103,14 @@ impl Table {
 
     /// Returns the points (x, y) of two columns, without rows that lack one of the numbers.
     #[track_caller]
-    pub fn curve(&self, keys: Keys<'_>, x: &str, y: &str) -> Result<Vec<(f64, f64)>, Missing> {
+    pub fn curve(&self, keys: Keys, x: &str, y: &str) -> Result<Vec<(f64, f64)>, Missing> {
         let series = self.series(keys, x, y)?;
         Ok(series.into_iter().map(|(x, estimate)| (x, estimate.value)).collect())
     }
 
     /// Returns the points of [`Table::curve`] with their standard errors, zero where there is none.
     #[track_caller]
-    pub fn series(
-        &self,
-        keys: Keys<'_>,
-        x: &str,
-        y: &str,
-    ) -> Result<Vec<(f64, Estimate)>, Missing> {
+    pub fn series(&self, keys: Keys, x: &str, y: &str) -> Result<Vec<(f64, Estimate)>, Missing> {
         let (x, y) = (self.column(x)?, self.column(y)?);
         let rows = self.select(keys)?.into_iter();
         Ok(rows.filter_map(|cells| cells[x].as_f64().zip(cells[y].estimate())).collect())
@@ -181,8 +176,7 @@ impl Table {
     }
 
     /// Returns the rows, as cells by the names of columns, by every name that a template can give
-    /// to a row: `key=value` for each key, where `first` and `last` stand for the first and the
-    /// last value. A row without keys has the empty name.
+    /// to a row: `key=value` for each key, with `first` and `last`. Without keys the name is empty.
     pub(crate) fn rows_by_name(&self) -> BTreeMap<String, BTreeMap<&'static str, &Value>> {
         let mut rows = BTreeMap::new();
         let keys: Vec<_> = self.keys().map(|key| (key, self.key_values(key))).collect();
