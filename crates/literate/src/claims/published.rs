@@ -139,12 +139,6 @@ fn power_of_ten(exponent: i32) -> f64 {
 }
 
 impl Statement {
-    /// Makes a statement without a place, as of a relation between numbers.
-    pub(super) fn new(kind: Kind, id: &str, statement: &str) -> Statement {
-        let (id, statement) = (id.into(), statement.into());
-        Statement { kind, id, statement, ..Statement::default() }
-    }
-
     pub(super) fn fault(&self, problem: &str) -> PublishedError {
         PublishedError::in_entry(self.line, &self.id, problem)
     }

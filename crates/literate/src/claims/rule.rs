@@ -78,13 +78,12 @@ impl Rule {
 
     /// Returns the statement that it judges, or one that is made of its relation.
     pub(super) fn statement(&self, published: &Published) -> Result<Statement, Error> {
-        match self.relation {
-            Some(relation) => {
-                let words = published.words.statement(self.id).unwrap_or(relation);
-                Ok(Statement::new(Kind::Relation, self.id, words))
-            }
-            None => Ok(published.statement(self.id)?.clone()),
-        }
+        let Some(relation) = self.relation else {
+            return Ok(published.statement(self.id)?.clone());
+        };
+        let statement = published.words.statement(self.id).unwrap_or(relation).into();
+        let (kind, id) = (Kind::Relation, self.id.into());
+        Ok(Statement { kind, id, statement, ..Statement::default() })
     }
 
     fn judged(&self, evidence: &Evidence<'_>) -> Judged {
@@ -98,12 +97,11 @@ impl Rule {
             }
         }
         let mut check = match (self.judge)(evidence) {
+            Err(Error::Undecided) if evidence.is_strict => {
+                evidence.open("a number that it needs is not there")
+            }
             Err(Error::Undecided) => {
-                if evidence.is_strict {
-                    evidence.open("a number that it needs is not there")
-                } else {
-                    evidence.open("–").note("The available results do not decide it.")
-                }
+                evidence.open("–").note("The available results do not decide it.")
             }
             judged => judged?,
         };

@@ -115,8 +115,8 @@ type Texts = BTreeMap<String, String>;
 pub struct Words(BTreeMap<String, (String, Texts)>);
 
 impl Words {
-    /// Reads all files `claims/NAME.toml`: a table `[id]` for each check, for which `[shared]` holds
-    /// too. Texts of an id that is not among `ids`, which no rule takes, are refused.
+    /// Reads all files `claims/NAME.toml`: a table `[id]` for each check, and `[shared]` for all of
+    /// the file. Texts of an id that is not among `ids`, which no rule takes, are refused.
     pub(crate) fn read(templates: &Templates, ids: &[&str]) -> Result<Words, String> {
         let mut words = Words::default();
         let is_known = |key: &String| key == STATEMENT || KEYS.iter().any(|k| key.starts_with(k));
