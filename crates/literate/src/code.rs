@@ -7,6 +7,7 @@
 use crate::input::{self, sha256};
 use crate::project::{Project, is_in};
 use std::collections::{BTreeMap, BTreeSet};
+use std::fs::DirEntry;
 use std::io;
 use std::path::{Component, Path, PathBuf};
 use std::time::SystemTime;
@@ -111,13 +112,10 @@ fn differs_from_first_run(
 fn variables(program: &Path, files: &[PathBuf]) -> BTreeMap<String, String> {
     let folders = program.ancestors().skip(1).take(2).map(|folder| folder.join("deps"));
     let lists = folders.filter_map(|folder| folder.read_dir().ok()).flatten().flatten();
-    let mut lists: Vec<_> = lists
-        .filter(|entry| entry.path().extension().is_some_and(|ending| ending == "d"))
-        .filter_map(|entry| Some((entry.metadata().ok()?.modified().ok()?, entry.path())))
-        .collect();
-    lists.sort();
+    let lists = lists.filter(|entry| entry.path().extension().is_some_and(|end| end == "d"));
+    let dated = |entry: DirEntry| Some((entry.metadata().ok()?.modified().ok()?, entry.path()));
     let mut packages = BTreeMap::new();
-    for (_, list) in lists {
+    for (_, list) in lists.filter_map(dated).collect::<BTreeSet<_>>() {
         let list = input::read_text(&list).unwrap_or_default();
         let line = list.lines().next().unwrap_or_default();
         let first = line.split_inclusive(".rs").next().unwrap_or_default();

@@ -89,22 +89,19 @@ impl Verdict {
     }
 }
 
-/// A statement or relation, judged; texts are saved as they are printed.
+/// A [`Statement`](super::Statement) or relation, judged; texts are saved as they are printed.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Check {
     /// What it judges.
     pub kind: Kind,
-    /// The author's word for a difference that is explained, such as `misprint`.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub(crate) why: String,
-    /// The sentence of which it is one reading of several; empty if it is the only one.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub(crate) sentence: String,
     /// The id of its statement or relation.
     pub id: String,
     /// Where it was printed; empty for a relation.
     pub(crate) place: String,
-    /// What it states, in our words.
     pub(crate) statement: String,
     /// What can be read there, in its shortest form.
     pub(crate) expected: String,

@@ -105,21 +105,18 @@ impl Store {
 
     /// Returns the saved result, or why it must be run, as [`Store::fresh`] does.
     pub(crate) fn load<T: DeserializeOwned>(&self, identity: &Identity) -> Result<T, String> {
-        let saved = self.fresh(identity)?;
-        let body = saved.split('\n').nth(2).unwrap_or_default();
-        serde_json::from_str(body).map_err(|_| run_again(OLDER_FORMAT))
+        serde_json::from_str(&self.fresh(identity)?).map_err(|_| run_again(OLDER_FORMAT))
     }
 
     /// Returns the result that was saved last, whatever it was made of.
     pub(super) fn load_last<T: DeserializeOwned>(&self, name: &str, profile: Profile) -> Option<T> {
         let identity = Identity::new(name, profile, BTreeMap::new(), ().into());
         let saved = read_text(&self.path(&identity)?).ok()?;
-        parse_identity(&saved).ok()?;
-        serde_json::from_str(saved.split('\n').nth(2)?).ok()
+        serde_json::from_str(parse(&saved).ok()?.1).ok()
     }
 
-    /// Returns the text of a saved file that is whole and was made of the same, or why the result
-    /// must be run, in one line: `run`, `run again, Cargo.lock changed`.
+    /// Returns the JSON of a result that is saved whole and was made of the same, or why it must be
+    /// run, in one line: `run`, `run again, Cargo.lock changed`.
     pub(crate) fn fresh(&self, identity: &Identity) -> Result<String, String> {
         let saved = match self.path(identity).map(|path| read_text(&path)) {
             Some(Ok(saved)) => saved,
@@ -128,8 +125,9 @@ impl Store {
             }
             _ => return Err("run".into()),
         };
-        let differences = identity.differences(&parse_identity(&saved).map_err(run_again)?);
-        if differences.is_empty() { Ok(saved) } else { Err(run_again(&differences)) }
+        let (made_of, body) = parse(&saved).map_err(run_again)?;
+        let differences = identity.differences(&made_of);
+        if differences.is_empty() { Ok(body.into()) } else { Err(run_again(&differences)) }
     }
 
     /// Makes the folder, so that one which cannot be made is known before a run.
@@ -142,8 +140,9 @@ impl Store {
     pub(crate) fn save<T: Json>(&self, identity: &Identity, result: &T) -> Result<(), Error> {
         let Some(path) = self.path(identity) else { return Ok(()) };
         let [made_of, body] = [to_json(identity, identity)?, to_json(identity, result)?];
-        let file = format!("{}\n{made_of}\n{body}\n", digest(&[&made_of, &body]));
-        write_whole(&path, &file).map_err(|source| Error(Fault::Store { path, source }))
+        let lines = format!("{made_of}\n{body}\n");
+        write_whole(&path, &format!("{}\n{lines}", sha256(&lines)))
+            .map_err(|source| Error(Fault::Store { path, source }))
     }
 
     /// Removes the units of a result, and the result too if it is to be run again.
@@ -171,15 +170,16 @@ fn run_again(reason: &str) -> String {
     format!("run again, {}", one_line(reason, 1000))
 }
 
-fn parse_identity(saved: &str) -> Result<Identity, &'static str> {
-    let lines: Vec<&str> = saved.split('\n').collect();
-    let [checksum, identity, body, ""] = lines[..] else {
+/// Returns what a saved result was made of, and its JSON.
+fn parse(saved: &str) -> Result<(Identity, &str), &'static str> {
+    let (checksum, lines) = saved.split_once('\n').unwrap_or_default();
+    let [identity, body, ""] = lines.split('\n').collect::<Vec<_>>()[..] else {
         return Err("the saved result is cut short or has extra lines");
     };
-    if checksum != digest(&[identity, body]) {
+    if checksum != sha256(lines) {
         return Err("the saved result was damaged or edited: its checksum is wrong");
     }
-    serde_json::from_str(identity).map_err(|_| OLDER_FORMAT)
+    serde_json::from_str(identity).map(|identity| (identity, body)).map_err(|_| OLDER_FORMAT)
 }
 
 /// Writes a result as text that reads back to the same bits. JSON has neither NaN nor infinity, and
@@ -198,10 +198,6 @@ fn write_whole(path: &Path, content: &str) -> std::io::Result<()> {
     let written = std::fs::write(&temporary, content);
     let saved = written.and_then(|()| std::fs::rename(&temporary, path));
     saved.inspect_err(|_| drop(std::fs::remove_file(&temporary)))
-}
-
-fn digest(lines: &[&str]) -> String {
-    sha256(lines.iter().flat_map(|line| [*line, "\n"]).collect::<String>())
 }
 
 #[cfg(test)]
