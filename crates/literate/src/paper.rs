@@ -50,15 +50,6 @@ impl FigureSpec {
         let source = format!("figures::{}", self.name);
         Ok(Figure { id: self.name.into(), source, experiments, ..figure })
     }
-
-    /// Returns whether `text` means it: its name, or `3` for `fig03`.
-    fn is(&self, name_or_number: &str) -> bool {
-        let lower = name_or_number.to_lowercase();
-        let digits = lower.trim_start_matches(char::is_alphabetic);
-        let letters = lower.strip_suffix(digits).filter(|letters| !letters.is_empty());
-        self.name == name_or_number
-            || self.name == format!("{}{digits:0>2}", letters.unwrap_or("fig"))
-    }
 }
 
 type MakeValues = fn(&Results, &Published) -> Result<Vec<Value>, Failure>;
@@ -171,11 +162,16 @@ impl Paper {
         Ok(())
     }
 
-    /// Finds a figure by its name or number: `spread`, `3`, `s1`.
-    pub(crate) fn find_figure(&self, name_or_number: &str) -> Result<&FigureSpec, Failure> {
-        self.figures.iter().find(|figure| figure.is(name_or_number)).ok_or_else(|| {
+    /// Finds a figure by its name or number: `spread`, `3` for `fig03`, `s1` for `s01`.
+    pub(crate) fn find_figure(&self, asked: &str) -> Result<&FigureSpec, Failure> {
+        let lower = asked.to_lowercase();
+        let digits = lower.trim_start_matches(char::is_alphabetic);
+        let letters = lower.strip_suffix(digits).filter(|letters| !letters.is_empty());
+        let numbered = format!("{}{digits:0>2}", letters.unwrap_or("fig"));
+        let mut figures = self.figures.iter();
+        figures.find(|figure| [asked, &numbered].contains(&figure.name)).ok_or_else(|| {
             let names: Vec<&str> = self.figures.iter().map(|figure| figure.name).collect();
-            let (asked, names) = (name_or_number, names.join(", "));
+            let names = names.join(", ");
             Failure::input(format!("there is no figure {asked:?}; there are {names}"))
         })
     }

@@ -88,14 +88,11 @@ pub(super) fn profile_in(root: &Path) -> Option<Profile> {
     values::read(&read_text(&root.join("values.json")).ok()?).ok()?.profile()
 }
 
-fn of_kind(checks: &[Check], kind: Kind) -> impl Iterator<Item = &Check> + Clone {
-    checks.iter().filter(move |check| check.kind == kind)
-}
-
 /// Returns the scores, a line each: of statements, and of relations where there are any.
 pub(super) fn scores(checks: &[Check]) -> Vec<String> {
     let mut lines = Vec::new();
-    let statements = of_kind(checks, Kind::Statement);
+    let of_kind = |kind: Kind| checks.iter().filter(move |check| check.kind == kind);
+    let statements = of_kind(Kind::Statement);
     let number = statements.clone().count();
     if number > 0 {
         let mut counts = Vec::new();
@@ -113,7 +110,7 @@ pub(super) fn scores(checks: &[Check]) -> Vec<String> {
         }
         lines.push(format!("reproduced, by what the verdict rests on: {}", bases.join(", ")));
     }
-    let [held, _, broken, open] = score(of_kind(checks, Kind::Relation));
+    let [held, _, broken, open] = score(of_kind(Kind::Relation));
     let total = held + broken + open;
     if total > 0 {
         lines.push(format!("our own checks: {held} of {total} relations between numbers hold"));

@@ -18,7 +18,7 @@ use super::error::{Error, Fault};
 use super::font::{self, Placed};
 use super::markup;
 use super::path::{Point, Step, circle, inside, polygon, polyline};
-use super::style::{PALETTE, Stroke, WIDTH, is_rimmed};
+use super::style::{PALETTE, Stroke, WIDTH};
 use plotters::style::text_anchor::{HPos, VPos};
 use plotters::style::{FontTransform, RGBColor};
 use plotters_backend::{
@@ -253,7 +253,7 @@ impl DrawingBackend for Drawing {
             size: style.size() as i32,
             colour,
             upwards,
-            rim: is_rimmed(style),
+            rim: style.family().as_str() == "rimmed",
             glyphs,
         }));
         Ok(())

@@ -7,7 +7,6 @@
 
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, FontDesc, RGBColor, ShapeStyle, TextStyle};
-use plotters_backend::BackendTextStyle;
 
 /// Width of every figure: one column.
 pub const WIDTH: u32 = 8400;
@@ -154,8 +153,4 @@ pub fn words(size: i32, colour: RGBColor, h: HPos, v: VPos) -> TextStyle<'static
 /// plotters cannot say so; the name of its font does, which chooses no font here.
 pub(crate) fn rimmed(size: i32, colour: RGBColor, h: HPos, v: VPos) -> TextStyle<'static> {
     FontDesc::from(("rimmed", size)).color(&colour).pos(Pos::new(h, v))
-}
-
-pub(super) fn is_rimmed(style: &impl BackendTextStyle) -> bool {
-    style.family().as_str() == "rimmed"
 }
