@@ -130,18 +130,17 @@ impl Check {
 
     /// Adds an explanation; unless it predicts what is found (`holds`), the check fails.
     pub fn explained(self, why: impl Into<Text>, holds: bool) -> Check {
+        self.note(why).explained_if(holds)
+    }
+
+    /// Takes its note for an explanation: unless this predicts what is found, the check fails.
+    pub fn explained_if(self, holds: bool) -> Check {
         let verdict = match (self.verdict, holds) {
             (_, false) => Verdict::Differs,
             (Verdict::Differs, true) => Verdict::DiffersAndExplained,
             (verdict, true) => verdict,
         };
-        Check { verdict, ..self }.note(why)
-    }
-
-    /// Takes its note for an explanation: unless this predicts what is found, the check fails.
-    pub fn explained_if(self, holds: bool) -> Check {
-        let note = self.note.clone();
-        self.explained(note, holds)
+        Check { verdict, ..self }
     }
 
     pub(crate) fn with_tolerance(self, tolerance: impl Into<Text>, reason: &str) -> Check {

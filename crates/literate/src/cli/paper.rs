@@ -73,10 +73,15 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
         let problem = format!("--out: {place} holds a report of the {name} profile");
         return Err(Failure::input(format!("{problem}; give another folder")));
     }
-    // A report has one state, so a figure is drawn into one that is as the results make it.
+    // A report has one state, so a figure is drawn into one that is as the results make it, but for
+    // the files of such figures.
+    let is_of_figures = |path: &String| {
+        let name = path.split(['/', '.']).nth(1).unwrap_or_default();
+        figures.iter().any(|figure| name.starts_with(figure.name))
+    };
     let apart = !is_whole
         && (args.out.is_none() || earlier.is_some())
-        && !is_current_but_for(&figures, &run)?;
+        && !run.outdated()?.is_some_and(|paths| paths.iter().all(is_of_figures));
     if apart {
         run.out = paper.project.place("target/figures");
     }
@@ -132,16 +137,6 @@ fn forget(names: &[String], paper: &Paper, session: &Session<'_>) -> Result<(), 
         }
     }
     Ok(())
-}
-
-/// Returns whether there is a report that is as prose and saved results make it, but for files of
-/// some figures.
-fn is_current_but_for(figures: &[&FigureSpec], run: &Run<'_>) -> Result<bool, Failure> {
-    let is_of_figures = |path: &String| {
-        let name = path.split(['/', '.']).nth(1).unwrap_or_default();
-        figures.iter().any(|figure| name.starts_with(figure.name))
-    };
-    Ok(run.outdated()?.is_some_and(|paths| paths.iter().all(is_of_figures)))
 }
 
 fn dry_run(run: &Run<'_>, needs: &[&'static dyn AnyExperiment]) -> Result<(), Failure> {
