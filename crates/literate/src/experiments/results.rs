@@ -5,7 +5,7 @@ use super::store::{Identity, Json};
 use super::{AnyExperiment, AnyResult, Command, Error, Experiment, Fault, Profile, Session};
 use crate::input::count;
 use crate::names::{self, Names};
-use crate::table::{Missing, NO_NUMBER, Table, Tables, find_cell, find_table, table_name};
+use crate::table::{Missing, NO_NUMBER, Table, Tables, no_such, table_name};
 use crate::value::Value;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -129,7 +129,13 @@ impl Results {
     #[track_caller]
     pub fn table(&self, name: &str) -> Result<&Table, Error> {
         self.note(name);
-        Ok(find_table(self.tables()?, name)?)
+        let tables = self.tables()?;
+        let Some(table) = tables.get(name) else {
+            let mut missing = Missing::new(name, no_such("table", name, tables.keys().copied()));
+            missing.remedy = "add its experiment to `needs`";
+            return Err(missing.into());
+        };
+        Ok(table)
     }
 
     /// Returns the bytes of a file in the `writes` of a command; it is an error if there is none.
@@ -142,8 +148,11 @@ impl Results {
 
     #[track_caller]
     pub(crate) fn cell(&self, address: &str) -> Result<&Value, Error> {
-        self.note(table_name(address).unwrap_or(address));
-        Ok(find_cell(self.tables()?, address)?)
+        let table = self.table(table_name(address).unwrap_or(address))?;
+        match table.cell(address) {
+            Some(cell) => Ok(cell),
+            None => Err(Missing::new(address, table.describe_missing(address)).into()),
+        }
     }
 
     /// Returns the number with this address.
@@ -220,6 +229,18 @@ fn made<E>(
 mod tests {
     use super::*;
     use crate::experiments::{Progress, Store};
+
+    #[test]
+    fn an_address_without_a_cell_is_an_error_with_the_nearest_names() {
+        let rise = Table::builder("test.rise", &[0.1], |_| 1).key("sigma", "1", |row| *row);
+        let results = Results::made_up(vec![rise.count("mean", "", |_| 2).done()]);
+        let message = |address| results.cell(address).unwrap_err().to_string();
+        let column = message("test.rise[sigma=0.1].meen");
+        assert!(column.contains("no column meen; nearest: mean"), "{column}");
+        let table = message("test.ris.mean");
+        assert!(table.contains("nearest: test.rise; add its experiment"), "{table}");
+        assert!(table.contains("src/experiments/results.rs:"), "{table}");
+    }
 
     #[test]
     fn a_panic_names_its_experiment() {

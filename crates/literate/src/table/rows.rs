@@ -1,12 +1,13 @@
 //! Holds the cells of a table, and finds them by addresses and keys.
 
-use super::find::{Missing, NO_NUMBER, no_such};
+use super::missing::{Missing, NO_NUMBER, no_such};
 use crate::decimal::Decimal;
 use crate::input::source_line;
 use crate::value::{Digits, Number, Value};
 use impact_numerics::statistics::Estimate;
 use std::collections::BTreeMap;
 use std::panic::Location;
+use std::sync::Arc;
 
 /// Rows that keys name, and columns.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,6 +28,8 @@ pub(super) struct Column {
     /// As data files write it: `d omega^2`, and `1` for a pure number.
     pub(super) unit: &'static str,
 }
+
+pub type Tables = BTreeMap<&'static str, Arc<Table>>;
 
 /// Names of keys and their values, which choose rows.
 pub type Keys<'a> = &'a [(&'a str, f64)];
@@ -53,7 +56,7 @@ impl Table {
     }
 
     /// Describes which part of an address does not exist, with the most similar names that do.
-    pub(super) fn describe_missing(&self, address: &str) -> String {
+    pub(crate) fn describe_missing(&self, address: &str) -> String {
         let rest = address.strip_prefix(self.name).unwrap_or(address);
         let (row, column) = rest.rsplit_once('.').unwrap_or(("", rest));
         let row = row.trim_start_matches('[').trim_end_matches(']');
@@ -201,6 +204,16 @@ impl Table {
     }
 }
 
+/// Returns the table, `experiment.table`, in the address of a cell, or `None` if it is none.
+pub fn table_name(address: &str) -> Option<&str> {
+    match address.split_once('[') {
+        Some((table, rest)) => rest.contains("].").then_some(table),
+        None => {
+            address.rsplit_once('.').map(|(table, _)| table).filter(|table| table.contains('.'))
+        }
+    }
+}
+
 fn without_repeats<T: PartialEq>(items: impl Iterator<Item = T>) -> Vec<T> {
     let mut distinct = Vec::new();
     for item in items {
@@ -235,11 +248,10 @@ fn is_number(cell: &Value, wanted: f64) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{DataFile, Tables, find_cell, table_name};
+    use super::super::DataFile;
     use super::*;
     use crate::sample::Sample;
     use crate::value::{Origin, Provenance};
-    use std::sync::Arc;
 
     fn mean(row: &(f64, f64, Vec<f64>)) -> Option<Estimate> {
         let value = row.2.iter().sum::<f64>() / row.2.len() as f64;
@@ -305,10 +317,6 @@ mod tests {
         assert!(missing_row.contains("in crates/literate/src/table/rows.rs:"), "{missing_row}");
         let nearest = "row r=0.8,sigma=0.30000000000000004; nearest: r=0.8,sigma=0.3, r=0.8,";
         assert!(missing_row.contains(nearest), "{missing_row}");
-        let tables = Tables::from([(table.name(), Arc::new(table.clone()))]);
-        let message = |address| find_cell(&tables, address).unwrap_err().to_string();
-        assert!(message("test.rise[r=0,sigma=0.1].meen").contains("no column meen; nearest: mean"));
-        assert!(message("test.ris.mean").contains("nearest: test.rise; add its experiment"));
         // Nothing is drawn of a column, a key or a row that is not there.
         let column = table.series(&[], "sigma", "meen").unwrap_err();
         assert!(column.to_string().contains("test.rise: there is no column meen; nearest: mean"));

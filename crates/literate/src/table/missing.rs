@@ -1,42 +1,8 @@
-//! Finds tables and cells by their names, and says what is not there and what is nearest.
+//! Says what is not there, where it is asked for, and what is nearest.
 
-use super::rows::Table;
 use crate::input::source_line;
-use crate::value::Value;
 use std::cmp::Reverse;
-use std::collections::BTreeMap;
 use std::panic::Location;
-use std::sync::Arc;
-
-pub type Tables = BTreeMap<&'static str, Arc<Table>>;
-
-#[track_caller]
-pub fn find_table<'a>(tables: &'a Tables, name: &str) -> Result<&'a Table, Missing> {
-    let Some(table) = tables.get(name) else {
-        let missing = Missing::new(name, no_such("table", name, tables.keys().copied()));
-        return Err(Missing { remedy: "add its experiment to `needs`", ..missing });
-    };
-    Ok(table)
-}
-
-#[track_caller]
-pub fn find_cell<'a>(tables: &'a Tables, address: &str) -> Result<&'a Value, Missing> {
-    let table = find_table(tables, table_name(address).unwrap_or(address))?;
-    match table.cell(address) {
-        Some(cell) => Ok(cell),
-        None => Err(Missing::new(address, table.describe_missing(address))),
-    }
-}
-
-/// Returns the table, `experiment.table`, in the address of a cell, or `None` if it is none.
-pub fn table_name(address: &str) -> Option<&str> {
-    match address.split_once('[') {
-        Some((table, rest)) => rest.contains("].").then_some(table),
-        None => {
-            address.rsplit_once('.').map(|(table, _)| table).filter(|table| table.contains('.'))
-        }
-    }
-}
 
 /// There is no such table, row, column or cell, or the cell has no number.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -44,7 +10,7 @@ pub fn table_name(address: &str) -> Option<&str> {
 pub struct Missing {
     address: String,
     what: String,
-    remedy: &'static str,
+    pub(crate) remedy: &'static str,
     place: String,
 }
 
