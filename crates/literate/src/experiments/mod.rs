@@ -20,5 +20,5 @@ pub(crate) use process::end_all;
 pub use progress::{Progress, alive};
 pub(crate) use progress::{be_quiet, say, stop};
 pub use results::{DerivedTables, Results};
-pub use session::{Profile, Session};
-pub use store::Store;
+pub use session::Session;
+pub use store::{Profile, Store};

@@ -1,33 +1,13 @@
-//! Holds what a run needs: project, prose, profile (the sizes of its samples), store and progress.
+//! Holds what a run needs: project, prose, profile, store and progress.
 
 use super::cutting::{Unit, WORK_PER_SECOND};
 use super::error::Error;
 use super::progress::Progress;
-use super::store::Store;
+use super::store::{Profile, Store};
 use crate::code::Code;
 use crate::input::count;
 use crate::project::Project;
 use crate::prose::Templates;
-use serde::{Deserialize, Serialize};
-
-/// The sizes of samples.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
-#[serde(rename_all = "lowercase")]
-pub enum Profile {
-    /// Small samples, to try things out
-    Quick,
-    /// The committed report
-    Full,
-}
-
-impl Profile {
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Profile::Quick => "quick",
-            Profile::Full => "full",
-        }
-    }
-}
 
 /// What a run of the program works with.
 #[derive(Clone, Debug)]

@@ -6,12 +6,31 @@
 //! not, or if the file is damaged, the experiment is run again, and the reason is printed.
 
 use super::cutting::Unit;
-use super::{Error, Fault, Profile};
+use super::{Error, Fault};
 use crate::input::{WRITING, is_absent, one_line, read_text, sha256};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
+
+/// The sizes of samples.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
+#[serde(rename_all = "lowercase")]
+pub enum Profile {
+    /// Small samples, to try things out
+    Quick,
+    /// The committed report
+    Full,
+}
+
+impl Profile {
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Profile::Quick => "quick",
+            Profile::Full => "full",
+        }
+    }
+}
 
 pub trait Json: Serialize + DeserializeOwned + PartialEq + Send + Sync + 'static {}
 
