@@ -31,11 +31,11 @@ impl Names {
         let earlier = self.0.insert(file_name, (name.into(), place.into()));
         let Some((other, earlier_place)) = earlier else { return Ok(()) };
         let reason = "which differ in case or in . and - only, so that they have one file";
-        let names = match other == name {
-            true => format!("name {name}"),
-            false => format!("names {other} and {name}, {reason}"),
-        };
-        Err(format!("the {names}: {earlier_place} and {place}; rename one"))
+        let both = format!("{earlier_place} and {place}; rename one");
+        if other == name {
+            return Err(format!("the name {name}: {both}"));
+        }
+        Err(format!("the names {other} and {name}, {reason}: {both}"))
     }
 }
 

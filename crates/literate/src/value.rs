@@ -31,13 +31,9 @@ pub enum Number {
 impl Number {
     /// Returns whether neither number nor error is infinite or NaN, and no error is negative.
     pub(crate) fn is_finite(&self) -> bool {
-        match *self {
-            Number::Real { value, digits: Digits::Error(error) } => {
-                value.is_finite() && error.is_finite() && error >= 0.0
-            }
-            Number::Real { value, .. } => value.is_finite(),
-            _ => true,
-        }
+        let Number::Real { value, digits } = *self else { return true };
+        let error = if let Digits::Error(error) = digits { error } else { 0.0 };
+        value.is_finite() && error.is_finite() && error >= 0.0
     }
 
     /// Returns the number with this many significant digits; words as they are.
@@ -178,10 +174,9 @@ impl Value {
 
     /// Makes a number as somebody printed it, with its decimals, at a place of a paper.
     pub(crate) fn printed(id: String, value: f64, decimals: usize, place: &str) -> Self {
-        let number = if decimals == 0 && value.fract() == 0.0 {
-            Number::Integer(value as i128)
-        } else {
-            Number::Real { value, digits: Digits::Decimals(decimals) }
+        let number = match decimals {
+            0 if value.fract() == 0.0 => Number::Integer(value as i128),
+            _ => Number::Real { value, digits: Digits::Decimals(decimals) },
         };
         Value::new(id, number, Provenance::Printed { place: place.into() })
     }
