@@ -230,7 +230,8 @@ mod tests {
         }
         // Printed are 0.12, 0.11 and a word; found is 0.1152, once with an error of 0.002, of which
         // 2.94 are allowed.
-        let cases: [(fn(&Evidence<'_>) -> Judged, _, _, _); 6] = [
+        type Judges = fn(&Evidence<'_>) -> Judged;
+        let cases: [(Judges, _, _, _); 6] = [
             (|e| e.cell("toy.all.rise"), [Yes, No], "0.1152", "± 0.005"),
             (|e| e.cell("toy.all.mean"), [Yes, Yes], "0.115(2)", "± 0.005"),
             (|e| e.within_errors("toy.all.mean"), [Yes, Yes], "0.115(2)", "± 0.006"),
