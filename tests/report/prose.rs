@@ -4,7 +4,7 @@ use super::*;
 use impact_chain::rise::Mean;
 use impact_numerics::estimates::with_error;
 use impact_numerics::statistics::Estimate;
-use impact_paper::claims::{self, Verdict};
+use impact_paper::claims::{self, Judge, Verdict};
 use impact_paper::experiments::accuracy::case::Outcome::Missed;
 use impact_paper::experiments::*;
 use impact_paper::figures;
@@ -53,15 +53,17 @@ fn every_claim_is_spoken_of_once_in_the_text() {
 /// The one exception is a definition: the normalisation of Eq. (9) is used as it stands.
 #[test]
 fn no_verdict_survives_another_first_digit_in_the_printed_number() {
-    let blind = claims::ids_blind_to_number(&QUICK.published, &claims::rules(), &QUICK.results);
+    let rules = claims::rules();
+    let blind = Judge::new(&QUICK.published, &rules, &QUICK.results).ids_blind_to_number();
     assert_eq!(blind, ["sec6_normalised"]);
 }
 
 /// Those that nothing moves are listed with the reason.
 #[test]
 fn every_verdict_moves_with_the_evidence() {
-    let ids =
-        claims::ids_never_moved(&QUICK.published, &claims::rules(), &QUICK.results, true).unwrap();
+    let rules = claims::rules();
+    let judge = Judge::new(&QUICK.published, &rules, &QUICK.results);
+    let ids = judge.ids_never_moved(true).unwrap();
     let listed = include_str!("never_moved.txt").lines();
     let in_all = listed.filter(|line| !line.contains("in full samples"));
     let listed: Vec<&str> = in_all.map(|line| line.split_once(": ").unwrap().0).collect();
@@ -72,7 +74,7 @@ fn every_verdict_moves_with_the_evidence() {
 fn judged(results: &Results, expected: &[(&str, Verdict)]) {
     let mut rules = claims::rules();
     rules.retain(|rule| expected.iter().any(|(id, _)| *id == rule.id));
-    let checks = claims::judge_all(&QUICK.published, &rules, results).unwrap();
+    let checks = Judge::new(&QUICK.published, &rules, results).checks().unwrap();
     for (id, verdict) in expected {
         assert_eq!(checks.iter().find(|check| check.id == *id).unwrap().verdict, *verdict, "{id}");
     }

@@ -1,6 +1,6 @@
 //! Builds a report: opens a run of a paper, judges its results, and makes every file in memory.
 
-use crate::claims::{Check, Published, Words, check_rules, judge_all};
+use crate::claims::{Check, Judge, Published, Words, check_rules};
 use crate::code::Code;
 use crate::experiments::{AnyExperiment, Error, Profile, Progress, Results, Session, Store};
 use crate::failure::Failure;
@@ -15,9 +15,8 @@ use rayon::prelude::*;
 use std::path::Path;
 
 impl Paper {
-    /// Returns a run with the prose of a folder, or else that of the project, or the copy inside.
-    /// Fails if two things have one name, if a file or the prose is missing, or if the program is
-    /// older than its code.
+    /// Returns a run with the prose of a folder, or else of the project or its copy. Fails if
+    /// names are not unique, a file is missing, or the program is older than its code.
     pub fn session(
         &self,
         prose: Option<&Path>,
@@ -37,14 +36,12 @@ impl Paper {
         };
         let mut documents = self.edition.documents.iter();
         if documents.len() > 0 && documents.all(|document| document.files(&templates).is_empty()) {
-            let names: Vec<&str> =
-                self.edition.documents.iter().map(|document| document.prose).collect();
+            let names: Vec<&str> = self.edition.documents.iter().map(|one| one.prose).collect();
             let folder = prose.unwrap_or(Path::new(self.prose)).display();
             let problem = format!("{folder}: no prose is there; give the folder of");
             return Err(Failure::input(format!("{problem} {}", names.join(", "))));
         }
-        let own =
-            self.experiments.iter().flat_map(|experiment| experiment.own()).copied().collect();
+        let own = self.experiments.iter().flat_map(|one| one.own()).copied().collect();
         let code = Code::of_program(project, self.prose, own).map_err(Failure::input)?;
         Ok(Session { project, templates, profile, store, progress, code })
     }
@@ -66,8 +63,7 @@ impl Paper {
         let fault = |problem: String| Failure::input(templates.place(&problem));
         let published = Published::parse(templates.text("published.toml")?);
         let ids: Vec<&str> = self.rules.iter().map(|rule| rule.id).collect();
-        let words =
-            Words::read(templates).and_then(|words| words.refuse_unused(&ids)).map_err(fault)?;
+        let words = Words::read(templates, &ids).map_err(fault)?;
         let published = Published { words, ..published.map_err(|error| fault(error.to_string()))? };
         check_rules(&published, &self.rules)?;
         Ok(published)
@@ -105,9 +101,9 @@ pub fn make_report(
     let figures =
         || paper.figures.par_iter().with_max_len(1).map(figure).collect::<Result<Vec<Figure>, _>>();
     let judge = || {
-        let checks = judge_all(&published, &paper.rules, &results)?;
-        let statements = checks.iter().filter(|check| check.kind.is_printed());
-        let statements: Vec<Check> = statements.cloned().collect();
+        let checks = Judge::new(&published, &paper.rules, &results).checks()?;
+        let mut statements = checks.clone();
+        statements.retain(|check| check.kind.is_printed());
         let rows = paper.rows.map(|rows| rows(&results, &statements)).transpose()?;
         let lab = paper.lab.map(|lab| lab(session, &results)).transpose()?.flatten();
         let values = paper.registry(&results, &published)?;

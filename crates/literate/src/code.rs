@@ -6,7 +6,8 @@
 
 use crate::input::{self, sha256};
 use crate::project::{Project, is_in};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs::DirEntry;
 use std::io;
 use std::path::{Component, Path, PathBuf};
 use std::time::SystemTime;
@@ -21,11 +22,8 @@ pub struct Code {
 }
 
 impl Code {
-    /// Reads the code of the program that runs, whose prose lies in a folder and whose experiments
-    /// list some code as their own.
-    ///
-    /// # Errors
-    /// A file cannot be read, or has changed since the program was built.
+    /// Reads the code of the program that runs; `own` is what experiments list as their own.
+    /// Fails if a file cannot be read, or has changed since the program was built.
     pub fn of_program(
         project: &Project,
         prose: &str,
@@ -38,15 +36,17 @@ impl Code {
         let unread = |path: &Path, error: io::Error| {
             format!("{}: {error}; restore it, and run `cargo build`", path.display())
         };
-        let mut hashes = BTreeMap::new();
-        let Some((top, files)) = listed(program, project) else {
-            let bytes = std::fs::read(program).map_err(|error| unread(program, error))?;
-            hashes.insert("the program".into(), sha256(bytes));
-            return Ok(Code { hashes, own });
+        let hash = |path: &PathBuf| {
+            Ok::<_, String>(sha256(std::fs::read(path).map_err(|error| unread(path, error))?))
         };
+        let Some((top, files)) = listed(program, project) else {
+            return Ok(Code { hashes: [("the program".into(), hash(program)?)].into(), own });
+        };
+        // The first 64 bits are enough.
+        let named_hash = |path: &PathBuf| Ok((name(path, &top), hash(path)?[..16].to_string()));
         let time = |path: &Path| path.metadata()?.modified();
         let built: SystemTime = time(program).map_err(|error| unread(program, error))?;
-        let mut manifests = Vec::new();
+        let mut manifests = BTreeSet::new();
         for path in &files {
             let name = name(path, &top);
             let changed = time(path).map_or(true, |changed| changed > built);
@@ -58,24 +58,16 @@ impl Code {
             let package = path.ancestors().find(|folder| folder.join("Cargo.toml").is_file());
             manifests.extend(package.map(|folder| folder.join("Cargo.toml")));
         }
-        manifests.sort();
-        manifests.dedup();
-        let mut hash_file = |path: &PathBuf| {
-            let bytes = std::fs::read(path).map_err(|error| unread(path, error))?;
-            // The first 64 bits are enough.
-            hashes.insert(name(path, &top), sha256(bytes)[..16].to_string());
-            Ok::<_, String>(())
-        };
-        files.iter().try_for_each(&mut hash_file)?;
-        let is_code = |(path, _): &(&String, &String)| !is_in(path, prose);
-        let code = hashes.iter().filter(is_code).map(|(a, b)| (a.clone(), b.clone())).collect();
+        let mut hashes: BTreeMap<String, String> =
+            files.iter().map(named_hash).collect::<Result<_, String>>()?;
+        let mut code = hashes.clone();
+        code.retain(|path, _| !is_in(path, prose));
         if let Some(path) = differs_from_first_run(program, built, &code) {
             let problem = "is not what this program was built from, although its time is older";
             return Err(format!("{path} {problem}; touch it, and run `cargo build`"));
         }
         for path in &manifests {
-            let bytes = std::fs::read(path).map_err(|error| unread(path, error))?;
-            hashes.insert(name(path, &top), sha256(bytes)[..16].to_string());
+            hashes.extend([named_hash(path)?]);
         }
         hashes.extend(variables(program, &files));
         let compiled = project.sources.compiled.iter();
@@ -87,14 +79,14 @@ impl Code {
 
     /// Returns what the result of an experiment with some code of its own is made of.
     pub fn counted(&self, project: &Project, own: &[&str]) -> BTreeMap<String, String> {
-        let files = self.hashes.iter().filter(|(path, _)| project.counts(path, own, &self.own));
-        files.map(|(path, hash)| (path.clone(), hash.clone())).collect()
+        let mut hashes = self.hashes.clone();
+        hashes.retain(|path, _| project.counts(path, own, &self.own));
+        hashes
     }
 }
 
-/// Returns a file whose hash differs from that at the first run of this program, or `None` if there
-/// is no such file: the times by which cargo goes do not tell when an older file is put back. The
-/// first run notes all hashes in a file beside the program, where it may write.
+/// Returns a file whose hash differs from that at the first run, or `None`: by its time cargo does
+/// not notice an older file that is put back. The first run notes all beside the program.
 fn differs_from_first_run(
     program: &Path,
     built: SystemTime,
@@ -120,13 +112,10 @@ fn differs_from_first_run(
 fn variables(program: &Path, files: &[PathBuf]) -> BTreeMap<String, String> {
     let folders = program.ancestors().skip(1).take(2).map(|folder| folder.join("deps"));
     let lists = folders.filter_map(|folder| folder.read_dir().ok()).flatten().flatten();
-    let mut lists: Vec<_> = lists
-        .filter(|entry| entry.path().extension().is_some_and(|ending| ending == "d"))
-        .filter_map(|entry| Some((entry.metadata().ok()?.modified().ok()?, entry.path())))
-        .collect();
-    lists.sort();
+    let lists = lists.filter(|entry| entry.path().extension().is_some_and(|end| end == "d"));
+    let dated = |entry: DirEntry| Some((entry.metadata().ok()?.modified().ok()?, entry.path()));
     let mut packages = BTreeMap::new();
-    for (_, list) in lists {
+    for (_, list) in lists.filter_map(dated).collect::<BTreeSet<_>>() {
         let list = input::read_text(&list).unwrap_or_default();
         let line = list.lines().next().unwrap_or_default();
         let first = line.split_inclusive(".rs").next().unwrap_or_default();
@@ -135,25 +124,23 @@ fn variables(program: &Path, files: &[PathBuf]) -> BTreeMap<String, String> {
             packages.insert(root, list);
         }
     }
-    let is_of_cargo = |name: &str| {
-        ["CARGO", "CLIPPY"].iter().any(|start| name.starts_with(start))
-            || ["OUT_DIR", "COMPILER"].contains(&name)
-    };
-    let lines = packages.values().flat_map(|list| list.lines());
-    let pairs = lines.filter_map(|line| line.strip_prefix("# env-dep:"));
-    let pairs = pairs.map(|pair| pair.split_once('=').unwrap_or((pair, "")));
-    let pairs = pairs.filter(|(name, _)| !is_of_cargo(name));
-    pairs
-        .map(|(name, value)| (format!("{name} when compiled"), sha256(value)[..16].into()))
-        .collect()
+    let mut variables = BTreeMap::new();
+    for line in packages.values().flat_map(|list| list.lines()) {
+        let Some(pair) = line.strip_prefix("# env-dep:") else { continue };
+        let (name, value) = pair.split_once('=').unwrap_or((pair, ""));
+        let is_of_cargo = name.starts_with("CARGO") || name.starts_with("CLIPPY");
+        if !is_of_cargo && !["OUT_DIR", "COMPILER"].contains(&name) {
+            variables.insert(format!("{name} when compiled"), sha256(value)[..16].into());
+        }
+    }
+    variables
 }
 
 fn older_than(path: &str) -> String {
     format!("{path} has changed since this program was built; run `cargo build`")
 }
 
-/// Returns the folder of the program's package and the files of the list beside it, or `None` if
-/// there is no list, or one of another machine.
+/// Returns the folder of the package and the files of the list beside the program, if it has one.
 fn listed(program: &Path, project: &Project) -> Option<(PathBuf, Vec<PathBuf>)> {
     // Beside a test is a list of the compiler, without other packages.
     if program.parent()?.file_name()? == "deps" {
@@ -171,8 +158,7 @@ fn listed(program: &Path, project: &Project) -> Option<(PathBuf, Vec<PathBuf>)> 
     files.iter().any(|path| path.exists()).then_some((top, files))
 }
 
-/// Returns the files of a list of cargo, `TARGET: FILE FILE`, in which a backslash stands before a
-/// blank of a name.
+/// Reads a list of cargo, `TARGET: FILE FILE`; a backslash stands before a blank of a name.
 fn paths(list: &str) -> Vec<PathBuf> {
     let (_, list) = list.split_once(": ").unwrap_or_default();
     let (mut files, mut path) = (Vec::new(), String::new());
@@ -197,8 +183,8 @@ fn real(path: &Path) -> PathBuf {
     real
 }
 
-/// Returns the path of a file from a folder, with `/` and `..`; what build scripts made is found in
-/// a folder with another name on each machine.
+/// Returns the path of a file from a folder; what build scripts made lies in one with another name
+/// on each machine.
 fn name(path: &Path, top: &Path) -> String {
     let path_text = path.to_string_lossy();
     if let Some((folder, made)) = path_text.rsplit_once("/out/")

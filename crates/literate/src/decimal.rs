@@ -45,10 +45,9 @@ impl Decimal {
     /// Returns the same number without zeros at the end of its digits; zero has no decimals.
     pub fn trimmed(mut self) -> Decimal {
         let length = self.digits.trim_end_matches('0').len();
-        self.places =
-            if length == 0 { 0 } else { self.places - (self.digits.len() - length) as i32 };
+        self.places -= (self.digits.len() - length) as i32;
         self.digits.truncate(length);
-        self
+        if length == 0 { Decimal { places: 0, ..self } } else { self }
     }
 
     pub fn integer(n: i128) -> Decimal {

@@ -29,8 +29,7 @@ pub(crate) fn read_text(path: &Path) -> Result<String, Error> {
     decode(read_file(path)?)
 }
 
-/// Reads bytes as text, without a byte-order mark. Lines end in `\n` however they end in the file,
-/// so that all that is made of them has the same bytes.
+/// Reads text without a byte-order mark; lines end in `\n` however they end in the file.
 fn decode(bytes: Vec<u8>) -> Result<String, Error> {
     let wrong = |_| Error::new(ErrorKind::InvalidData, "not valid UTF-8");
     let content = String::from_utf8(bytes).map_err(wrong)?;
@@ -159,7 +158,6 @@ pub fn one_line(input: &str, most: usize) -> String {
     head.chain(['…']).chain(message.chars().skip(length - tail)).collect()
 }
 
-/// Writes a place in the source: `src/main.rs:12`.
 pub(crate) fn source_line(location: &Location<'_>) -> String {
     format!("{}:{}", location.file(), location.line())
 }

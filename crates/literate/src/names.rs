@@ -5,8 +5,7 @@ use std::collections::BTreeMap;
 /// Names that no file may have on some systems.
 const RESERVED: [&str; 4] = ["con", "prn", "aux", "nul"];
 
-/// Returns what is wrong with a name, or `None`: it has letters, digits, `-`, `_` and `.`, and is
-/// no path.
+/// Returns what is wrong with a name, or `None`: it has letters, digits, `-`, `_` and `.` only.
 pub fn fault(name: &str) -> Option<String> {
     let is_sign = |c: char| c.is_alphanumeric() || "-_.".contains(c);
     let stem = name.split('.').next().unwrap_or_default().to_lowercase();
@@ -29,18 +28,14 @@ impl Names {
     /// differs only in the case of letters or in `.`, `:` and `-`.
     pub fn add(&mut self, name: &str, place: &str) -> Result<(), String> {
         let file_name = name.to_lowercase().replace(['.', ':'], "-");
-        let Some((other, earlier_place)) = self.0.insert(file_name, (name.into(), place.into()))
-        else {
-            return Ok(());
-        };
-        Err(if other == name {
-            format!("the name {name}: {earlier_place} and {place}; rename one")
-        } else {
-            let reason = "which differ in case or in . and - only, so that they have one file";
-            format!(
-                "the names {other} and {name}, {reason}: {earlier_place} and {place}; rename one"
-            )
-        })
+        let earlier = self.0.insert(file_name, (name.into(), place.into()));
+        let Some((other, earlier_place)) = earlier else { return Ok(()) };
+        let reason = "which differ in case or in . and - only, so that they have one file";
+        let both = format!("{earlier_place} and {place}; rename one");
+        if other == name {
+            return Err(format!("the name {name}: {both}"));
+        }
+        Err(format!("the names {other} and {name}, {reason}: {both}"))
     }
 }
 

@@ -14,25 +14,24 @@ use serde_json::Value as Json;
 use std::collections::{BTreeMap, BTreeSet};
 use std::panic::Location;
 
+type Needs = &'static [&'static dyn AnyExperiment];
+type Draw = fn(&Results) -> Result<Figure, figures::Error>;
+
 /// A figure of the paper before it is drawn.
 #[derive(Clone, Copy)]
 pub struct FigureSpec {
     /// Its name; its picture is `figures/NAME.svg`.
     pub name: &'static str,
     /// The experiments whose results it shows.
-    pub needs: &'static [&'static dyn AnyExperiment],
-    pub(crate) draw: fn(&Results) -> Result<Figure, figures::Error>,
+    pub needs: Needs,
+    pub(crate) draw: Draw,
     place: &'static Location<'static>,
 }
 
 impl FigureSpec {
     /// Lists a figure with its name, what it needs, and the function that draws it.
     #[track_caller]
-    pub const fn new(
-        name: &'static str,
-        needs: &'static [&'static dyn AnyExperiment],
-        draw: fn(&Results) -> Result<Figure, figures::Error>,
-    ) -> Self {
+    pub const fn new(name: &'static str, needs: Needs, draw: Draw) -> Self {
         FigureSpec { name, needs, draw, place: Location::caller() }
     }
 
@@ -50,15 +49,6 @@ impl FigureSpec {
         // The item that draws it has its name.
         let source = format!("figures::{}", self.name);
         Ok(Figure { id: self.name.into(), source, experiments, ..figure })
-    }
-
-    /// Returns whether `text` means it: its name, or `3` for `fig03`.
-    fn is(&self, name_or_number: &str) -> bool {
-        let lower = name_or_number.to_lowercase();
-        let digits = lower.trim_start_matches(char::is_alphabetic);
-        let letters = lower.strip_suffix(digits).filter(|letters| !letters.is_empty());
-        self.name == name_or_number
-            || self.name == format!("{}{digits:0>2}", letters.unwrap_or("fig"))
     }
 }
 
@@ -137,12 +127,7 @@ impl Paper {
 
     /// Adds a figure with its name, the experiments that it needs, and what draws it.
     #[track_caller]
-    pub fn figure(
-        mut self,
-        name: &'static str,
-        needs: &'static [&'static dyn AnyExperiment],
-        draw: fn(&Results) -> Result<Figure, figures::Error>,
-    ) -> Self {
+    pub fn figure(mut self, name: &'static str, needs: Needs, draw: Draw) -> Self {
         self.figures.push(FigureSpec::new(name, needs, draw));
         self
     }
@@ -177,11 +162,16 @@ impl Paper {
         Ok(())
     }
 
-    /// Finds a figure by its name or number: `spread`, `3`, `s1`.
-    pub(crate) fn find_figure(&self, name_or_number: &str) -> Result<&FigureSpec, Failure> {
-        self.figures.iter().find(|figure| figure.is(name_or_number)).ok_or_else(|| {
+    /// Finds a figure by its name or number: `spread`, `3` for `fig03`, `s1` for `s01`.
+    pub(crate) fn find_figure(&self, asked: &str) -> Result<&FigureSpec, Failure> {
+        let lower = asked.to_lowercase();
+        let digits = lower.trim_start_matches(char::is_alphabetic);
+        let letters = lower.strip_suffix(digits).filter(|letters| !letters.is_empty());
+        let numbered = format!("{}{digits:0>2}", letters.unwrap_or("fig"));
+        let mut figures = self.figures.iter();
+        figures.find(|figure| [asked, &numbered].contains(&figure.name)).ok_or_else(|| {
             let names: Vec<&str> = self.figures.iter().map(|figure| figure.name).collect();
-            let (asked, names) = (name_or_number, names.join(", "));
+            let names = names.join(", ");
             Failure::input(format!("there is no figure {asked:?}; there are {names}"))
         })
     }

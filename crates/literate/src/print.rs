@@ -4,7 +4,7 @@
 //! the decimal conversion of Rust is used, which rounds exactly and alike on every platform.
 
 use crate::decimal::Decimal;
-use crate::value::{Digits, Number, Value, Written};
+use crate::value::{Digits, Number, Value};
 
 /// What filters of a template change of a value.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -52,7 +52,7 @@ pub fn print(number: &Number, style: Style) -> Printed {
         }
         Number::Real { value, digits } => {
             let decimal = |from_double: fn(f64) -> Decimal| match digits {
-                Digits::Text(Written(text)) => Decimal::read(text),
+                Digits::Text(text) => Decimal::read(text),
                 _ => from_double(value),
             };
             let numeral = match style.digits.unwrap_or(digits) {
@@ -185,7 +185,6 @@ fn grouped(digits: String) -> String {
 }
 
 impl Value {
-    /// Returns the value in its digits, for terminals and data: `0.1165(4)`.
     pub(crate) fn to_plain_text(&self) -> String {
         print(&self.number, Style::default()).to_plain_text()
     }

@@ -6,9 +6,8 @@
 
 use crate::input::{self, sha256};
 use crate::source::Sources;
-use std::borrow::Cow;
 use std::collections::BTreeMap;
-use std::io;
+use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
 /// The source of a program, and the folder in which it is developed.
@@ -19,8 +18,7 @@ pub struct Project {
     /// Paths and texts of what it reads when it runs; empty unless it travels alone.
     pub copy: &'static [(&'static str, &'static str)],
     /// Code that changes no result, by the beginning or end of its path, with the reason. All other
-    /// code that cargo built the program from counts for each result, unless it is an experiment's
-    /// own.
+    /// code of the program counts for each result, unless it is an experiment's own.
     pub apart: &'static [(&'static str, &'static str)],
     /// Code that counts for each result although it lies in a folder that is apart.
     pub shared: &'static [&'static str],
@@ -38,9 +36,8 @@ impl Project {
         Project { sources, copy: &[], apart: &[], shared: &[] }
     }
 
-    /// Returns whether a file counts for the result of an experiment with some code of its own;
-    /// `owned` is what all experiments list as their own. What is apart counts only for one that
-    /// lists it by its whole path.
+    /// Returns whether a file counts for an experiment with some code of its own, of all that is
+    /// `owned`. What is apart counts only for one that lists it by its whole path.
     pub fn counts(&self, path: &str, own: &[&str], owned: &[&str]) -> bool {
         let among = |places: &[&str]| places.iter().any(|place| is_in(path, place));
         let is_apart = |(place, _): &(&str, _)| path.ends_with(place) || is_in(path, place);
@@ -83,8 +80,7 @@ impl Project {
         Err((format!("it lists {absent}, which is not there"), remedy))
     }
 
-    /// Returns the path to a file or folder of the project, or `None` if only the copy inside the
-    /// program has it.
+    /// Returns the path to a file or folder of the project, or `None` if only the copy has it.
     pub fn find(&self, path: &str) -> Option<PathBuf> {
         Some(self.path_to_top()?.join(path)).filter(|place| place.exists())
     }
@@ -94,8 +90,7 @@ impl Project {
         self.path_up().or_else(|| std::env::var_os("LITERATE_PROJECT").map(PathBuf::from))
     }
 
-    /// Returns the path from the current folder up to the top of the project, or `None` if the
-    /// current folder lies elsewhere.
+    /// Returns the path up to the top of the project, or `None` if it is not above.
     fn path_up(&self) -> Option<PathBuf> {
         let (path, _) = self.sources.files.iter().find(|(path, _)| path.contains('/'))?;
         let here = std::env::current_dir().ok()?;
@@ -103,13 +98,13 @@ impl Project {
         Some("../".repeat(above).into())
     }
 
-    /// Returns the path at which a file of the project is written: below its top, or below the
-    /// current folder if this lies elsewhere.
+    /// Returns where a file is written: below the top of the project, or else the current folder.
     pub(crate) fn place(&self, path: &str) -> PathBuf {
         self.path_up().unwrap_or_default().join(path)
     }
 
-    fn top(&self) -> Option<PathBuf> {
+    /// Returns the top of the project, or `None` if the program runs without a checkout.
+    pub(crate) fn top(&self) -> Option<PathBuf> {
         std::env::current_dir().ok()?.join(self.path_to_top()?).canonicalize().ok()
     }
 
@@ -117,8 +112,7 @@ impl Project {
         self.top().unwrap_or_else(|| ".".into())
     }
 
-    /// Returns a file of the source that has changed since the program was built, or `None` if
-    /// there is no such file.
+    /// Returns a file of the source that has changed since the build, or `None` if none has.
     pub(crate) fn changed(&self) -> Option<&'static str> {
         let top = self.top()?;
         let differs = |path: &str, text: &str| {
@@ -145,13 +139,13 @@ impl Project {
     }
 
     /// Reads a file by its path from the top of the project.
-    pub fn text(&self, path: &str) -> io::Result<Cow<'static, str>> {
-        if let Some(place) = self.find(path) {
-            return input::read_text(&place).map(Cow::Owned);
+    pub fn text(&self, path: &str) -> io::Result<String> {
+        let missing = "it is not there; run this in the project";
+        match (self.find(path), self.copied(path)) {
+            (Some(place), _) => input::read_text(&place),
+            (None, Some(text)) => Ok(text.into()),
+            _ => Err(io::Error::new(ErrorKind::NotFound, missing)),
         }
-        let missing =
-            || io::Error::new(io::ErrorKind::NotFound, "it is not there; run this in the project");
-        self.copied(path).map(Cow::Borrowed).ok_or_else(missing)
     }
 }
 
@@ -174,7 +168,7 @@ mod tests {
         let error = project.hashes(&[place]).unwrap_err().to_string();
         assert!(error.contains("dangling: "), "{error}");
         let error = project.text("templates/no_such.md").unwrap_err();
-        assert_eq!(error.kind(), io::ErrorKind::NotFound);
+        assert_eq!(error.kind(), ErrorKind::NotFound);
     }
 
     #[test]

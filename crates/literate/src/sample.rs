@@ -4,7 +4,6 @@
 use impact_numerics::estimates::{self, LEVEL, with_error};
 use impact_numerics::statistics::{Estimate, wilson};
 use serde::{Deserialize, Serialize};
-use std::ops::Deref;
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -27,16 +26,9 @@ impl Sample {
 /// An estimate that knows how many values it is from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sampled {
-    pub(crate) estimate: Estimate,
+    /// The estimate.
+    pub estimate: Estimate,
     pub(crate) sample: Sample,
-}
-
-impl Deref for Sampled {
-    type Target = Estimate;
-
-    fn deref(&self) -> &Estimate {
-        &self.estimate
-    }
 }
 
 impl From<Estimate> for Sampled {
@@ -49,9 +41,8 @@ fn with_values(values: usize, estimate: Estimate) -> Sampled {
     Sampled { estimate, sample: Sample::Values(values as u64) }
 }
 
-/// Returns the mean of a sample, or `None` if it has fewer than two values. Equal values have the
-/// error zero, by which no check judges: use [`share`] where each is yes or no, and a number
-/// without an error where there is no chance.
+/// Returns the mean of a sample, or `None` if it has fewer than two values. Equal ones have the
+/// error zero, by which no check judges: use [`share`], or a number without an error.
 pub fn average(values: &[f64]) -> Option<Sampled> {
     let mean = estimates::average(values)?;
     // Equal values have no error, also none by rounding.
@@ -59,9 +50,8 @@ pub fn average(values: &[f64]) -> Option<Sampled> {
     Some(with_values(values.len(), if are_equal { with_error(values[0], 0.0) } else { mean }))
 }
 
-/// Returns the share `part`/`whole` with its binomial error and Wilson's interval, or `None` if
-/// `whole` is 0. Shares of 0 and 1 have the error of Wilson's interval, and checks use the exact
-/// interval.
+/// Returns the share `part`/`whole` with its binomial error, or Wilson's of 0 and 1, and Wilson's
+/// interval, or `None` if `whole` is 0. Checks use the exact interval.
 pub fn share(part: u64, whole: u64) -> Option<Sampled> {
     let binomial = estimates::share(part, whole)?;
     let error = if binomial.error > 0.0 { binomial.error } else { 1.0 / (whole as f64 + 1.0) };
@@ -79,14 +69,12 @@ pub fn difference(a: impl Into<Sampled>, b: impl Into<Sampled>) -> Sampled {
     Sampled { estimate: estimates::difference(a.estimate, b.estimate), sample }
 }
 
-/// Returns a statistic of all realisations with its jackknife error; `statistic` gets the
-/// realisation that it leaves out, or `None`.
+/// Returns a statistic with its jackknife error; `statistic` gets the realisation to leave out.
 pub fn jackknife(
     realisations: usize,
     statistic: impl Fn(Option<usize>) -> Option<f64>,
 ) -> Option<Sampled> {
-    estimates::jackknife(realisations, statistic)
-        .map(|estimate| with_values(realisations, estimate))
+    estimates::jackknife(realisations, statistic).map(|mean| with_values(realisations, mean))
 }
 
 /// Returns the ratio of two sums over realisations, with its jackknife error.

@@ -67,9 +67,8 @@ impl Sources {
     /// Returns the file of an item or a module by its path, `crates/circuits/src/jump.rs` for
     /// `impact_circuits::jump::p_jump`, or `None` if the program has no such file.
     pub fn file(&self, item: &str) -> Option<&'static str> {
-        let inside =
-            |(name, folder): &(&str, &'static str)| Some((*folder, item.strip_prefix(name)?));
-        let (folder, rest) = self.crates.iter().find_map(inside)?;
+        let mut crates = self.crates.iter();
+        let (folder, rest) = crates.find_map(|(name, at)| Some((at, item.strip_prefix(name)?)))?;
         let mut parts: Vec<&str> = rest.split("::").filter(|part| !part.is_empty()).collect();
         loop {
             let module = format!("{folder}/{}", parts.join("/"));

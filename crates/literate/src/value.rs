@@ -4,11 +4,9 @@
 //! it, it becomes a [`Value`] with an id, and a template names that id: `«v.version»`. The
 //! printed digits follow from the value itself, so that prose, tables and `values.json` agree.
 
-use crate::sample::{Sample, Sampled};
+use crate::sample::Sample;
 use impact_numerics::statistics::Estimate;
 use serde::{Deserialize, Deserializer, Serialize};
-use std::collections::BTreeSet;
-use std::sync::{Mutex, PoisonError};
 
 /// A number as it is shown, or words.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -33,13 +31,9 @@ pub enum Number {
 impl Number {
     /// Returns whether neither number nor error is infinite or NaN, and no error is negative.
     pub(crate) fn is_finite(&self) -> bool {
-        match *self {
-            Number::Real { value, digits: Digits::Error(error) } => {
-                value.is_finite() && error.is_finite() && error >= 0.0
-            }
-            Number::Real { value, .. } => value.is_finite(),
-            _ => true,
-        }
+        let Number::Real { value, digits } = *self else { return true };
+        let error = if let Digits::Error(error) = digits { error } else { 0.0 };
+        value.is_finite() && error.is_finite() && error >= 0.0
     }
 
     /// Returns the number with this many significant digits; words as they are.
@@ -82,12 +76,6 @@ impl From<String> for Number {
     }
 }
 
-impl From<Sampled> for Number {
-    fn from(found: Sampled) -> Number {
-        found.estimate.into()
-    }
-}
-
 impl From<Estimate> for Number {
     fn from(found: Estimate) -> Number {
         Number::Real { value: found.value, digits: Digits::Error(found.error) }
@@ -113,27 +101,14 @@ pub enum Digits {
     /// All: the shortest decimal that reads back to the same double.
     Full,
     /// Those of a text, which may be more than a double holds: 0.50.
-    Text(Written),
+    Text(#[serde(deserialize_with = "read_leaked")] Leaked),
 }
 
-/// A number as it was written, kept once for all its cells as long as the program runs.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Written(pub(crate) &'static str);
+/// A text that is kept as long as the program runs.
+pub type Leaked = &'static str;
 
-impl Written {
-    pub(crate) fn new(text: &str) -> Written {
-        static ALL: Mutex<BTreeSet<&'static str>> = Mutex::new(BTreeSet::new());
-        let mut written = ALL.lock().unwrap_or_else(PoisonError::into_inner);
-        let known = written.get(text).copied().unwrap_or_else(|| Box::leak(text.into()));
-        written.insert(known);
-        Written(known)
-    }
-}
-
-impl<'de> Deserialize<'de> for Written {
-    fn deserialize<D: Deserializer<'de>>(reader: D) -> Result<Self, D::Error> {
-        Ok(Written::new(&String::deserialize(reader)?))
-    }
+fn read_leaked<'de, D: Deserializer<'de>>(reader: D) -> Result<Leaked, D::Error> {
+    Ok(String::deserialize(reader)?.leak())
 }
 
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -198,16 +173,10 @@ impl Value {
     }
 
     /// Makes a number as somebody printed it, with its decimals, at a place of a paper.
-    pub(crate) fn printed(
-        id: impl Into<String>,
-        value: f64,
-        decimals: usize,
-        place: impl Into<String>,
-    ) -> Self {
-        let number = if decimals == 0 && value.fract() == 0.0 {
-            Number::Integer(value as i128)
-        } else {
-            Number::Real { value, digits: Digits::Decimals(decimals) }
+    pub(crate) fn printed(id: String, value: f64, decimals: usize, place: &str) -> Self {
+        let number = match decimals {
+            0 if value.fract() == 0.0 => Number::Integer(value as i128),
+            _ => Number::Real { value, digits: Digits::Decimals(decimals) },
         };
         Value::new(id, number, Provenance::Printed { place: place.into() })
     }
@@ -227,8 +196,7 @@ impl Value {
         }
     }
 
-    /// Returns its number with the standard error, which is half of the interval, or `None` if it
-    /// has no number.
+    /// Returns its number with the standard error, or `None` if it has no number.
     pub(crate) fn estimate(&self) -> Option<Estimate> {
         let (value, error) = (self.as_f64()?, self.standard_error());
         Some(Estimate { value, error, interval: [value - error, value + error] })

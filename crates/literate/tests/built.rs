@@ -46,6 +46,33 @@ fn main() {
 }
 "#;
 
+const PACKAGE: &str = r#"[package]
+name = "literate-toy"
+edition = "2024"
+[features]
+heavy = []
+[dependencies]
+literate = { package = "literate-paper", path = "LITERATE" }
+phys = { path = "../phys" }
+"#;
+
+const WORKSPACE: &str = "[workspace]\nresolver = \"3\"\nmembers = [\"toy\", \"phys\"]\n";
+
+/// Files with the same text in each test.
+const FILES: [(&str, &str); 8] = [
+    ("toy/build.rs", BUILD),
+    ("toy/src/main.rs", PROGRAM),
+    ("toy/data/included.csv", "4\n"),
+    ("toy/data/read.csv", "0\n"),
+    (
+        "toy/prose/report.md",
+        "# Sum\n\nThe sum is «sum.all.value».\n\n![A line](figures/line.svg)\n",
+    ),
+    ("phys/Cargo.toml", "[package]\nname = \"phys\"\nedition = \"2024\"\n"),
+    ("phys/src/lib.rs", "pub const G: f64 = 1.0;\n"),
+    ("shared/elsewhere.rs", "pub const H: f64 = 2.0;\n"),
+];
+
 struct Toy {
     folder: tempfile::TempDir,
     target: PathBuf,
@@ -53,47 +80,19 @@ struct Toy {
 
 impl Toy {
     fn new() -> Toy {
-        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-        let read = |name: &str| fs::read_to_string(root.join(name)).unwrap();
+        let literate = env!("CARGO_MANIFEST_DIR");
+        let read = |name: &str| fs::read_to_string(format!("{literate}/../../{name}")).unwrap();
+        let target = std::env::current_exe().unwrap().ancestors().nth(3).unwrap().to_path_buf();
+        let folder = tempfile::Builder::new().prefix("a toy ").tempdir().unwrap();
+        let toy = Toy { folder, target };
         // With the profile of these tests, what they have compiled serves here too.
         let manifest = read("Cargo.toml");
-        let profile = &manifest[manifest.find("[profile.release]").unwrap()..];
-        let profile: String = profile
-            .lines()
-            .filter(|line| !line.starts_with("impact-"))
-            .map(|l| format!("{l}\n"))
-            .collect();
-        let target = std::env::current_exe().unwrap().ancestors().nth(3).unwrap().to_path_buf();
-        let toy =
-            Toy { folder: tempfile::Builder::new().prefix("a toy ").tempdir().unwrap(), target };
-        let literate = env!("CARGO_MANIFEST_DIR");
-        for (path, text) in [
-            (
-                "Cargo.toml",
-                format!("[workspace]\nresolver = \"3\"\nmembers = [\"toy\", \"phys\"]\n{profile}"),
-            ),
-            ("Cargo.lock", read("Cargo.lock")),
-            (
-                "toy/Cargo.toml",
-                format!(
-                    "[package]\nname = \"literate-toy\"\nedition = \"2024\"\n[features]\nheavy = []\n[dependencies]\n\
-                     literate = {{ package = \"literate-paper\", path = {literate:?} }}\nphys = {{ path = \"../phys\" }}\n"
-                ),
-            ),
-            ("toy/build.rs", BUILD.into()),
-            ("toy/src/main.rs", PROGRAM.into()),
-            ("toy/data/included.csv", "4\n".into()),
-            ("toy/data/read.csv", "0\n".into()),
-            (
-                "toy/prose/report.md",
-                "# Sum\n\nThe sum is «sum.all.value».\n\n![A line](figures/line.svg)\n".into(),
-            ),
-            ("phys/Cargo.toml", "[package]\nname = \"phys\"\nedition = \"2024\"\n".into()),
-            ("phys/src/lib.rs", "pub const G: f64 = 1.0;\n".into()),
-            ("shared/elsewhere.rs", "pub const H: f64 = 2.0;\n".into()),
-        ] {
-            toy.write(path, &text);
-        }
+        let profile = manifest[manifest.find("[profile.release]").unwrap()..].lines();
+        let profile: Vec<&str> = profile.filter(|line| !line.starts_with("impact-")).collect();
+        toy.write("Cargo.toml", &[WORKSPACE, &profile.join("\n")].concat());
+        toy.write("Cargo.lock", &read("Cargo.lock"));
+        toy.write("toy/Cargo.toml", &PACKAGE.replace("LITERATE", literate));
+        FILES.iter().for_each(|(path, text)| toy.write(path, text));
         toy
     }
 
@@ -103,44 +102,45 @@ impl Toy {
         fs::write(path, text).unwrap();
     }
 
-    fn build(&self, more: &[&str]) {
-        self.build_with(more, &[]);
-    }
-
-    fn build_with(&self, more: &[&str], variables: &[(&str, &str)]) {
+    fn build(&self, options: &[&str], variables: &[(&str, &str)]) {
         let mut cargo = Command::new(env!("CARGO"));
         cargo.args(["build", "--release", "--offline", "--quiet", "--package=literate-toy"]);
-        cargo
-            .args(more)
-            .current_dir(self.folder.path())
-            .env("CARGO_TARGET_DIR", &self.target)
-            .envs(variables.iter().copied());
-        let output = cargo.output().unwrap();
+        cargo.args(options).current_dir(&self.folder).envs(variables.iter().copied());
+        let output = cargo.env("CARGO_TARGET_DIR", &self.target).output().unwrap();
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     }
 
-    /// Runs the program, and returns its exit code and all that it printed.
-    fn run(&self, line: &str) -> (i32, String) {
-        let mut program = Command::new(self.target.join("release/literate-toy"));
+    /// Runs a program, and returns its exit code and all that it printed.
+    fn run(&self, program: &Path, line: &str) -> (i32, String) {
+        let mut program = Command::new(program);
         program.args(line.split(' ')).current_dir(self.folder.path().join("toy"));
-        program.env_remove("LITERATE_PROJECT");
-        let output = program.output().unwrap();
+        let output = program.env_remove("LITERATE_PROJECT").output().unwrap();
         let printed = [output.stdout, output.stderr].concat();
         (output.status.code().unwrap(), String::from_utf8(printed).unwrap())
     }
 
-    fn report(&self) -> String {
-        fs::read_to_string(self.folder.path().join("toy/paper/report.md")).unwrap()
+    /// Runs the program, which must end with an exit code and print these words.
+    fn expect(&self, line: &str, code: i32, words: &[&str]) {
+        let (exit, printed) = self.run(&self.target.join("release/literate-toy"), line);
+        assert_eq!(exit, code, "{line}: {printed}");
+        assert!(words.iter().all(|words| printed.contains(words)), "{line}: {printed}");
+    }
+
+    fn expect_report(&self, words: &str) {
+        let path = self.folder.path().join("toy/paper/report.md");
+        let report = fs::read_to_string(path).unwrap();
+        assert!(report.contains(words), "{report}");
     }
 }
 
 #[test]
 fn a_result_is_stale_as_soon_as_what_made_it_has_changed() {
     let toy = Toy::new();
-    toy.build(&[]);
-    assert_eq!(toy.run("paper").0, 0);
-    assert!(toy.report().contains("The sum is 15."), "{}", toy.report());
-    assert_eq!(toy.run("paper --dry-run"), (0, String::new()));
+    toy.build(&[], &[]);
+    toy.expect("paper", 0, &[]);
+    toy.expect_report("The sum is 15.");
+    let program = toy.target.join("release/literate-toy");
+    assert_eq!(toy.run(&program, "paper --dry-run"), (0, String::new()));
 
     // All that it was made of is known, wherever it lies.
     let saved = toy.folder.path().join("toy/target/results/sum-full.json");
@@ -168,49 +168,32 @@ fn a_result_is_stale_as_soon_as_what_made_it_has_changed() {
     // Before it is built again, a program older than its code computes and judges nothing.
     toy.write("phys/src/lib.rs", "pub const G: f64 = 16.0;\n");
     for line in ["paper", "paper --dry-run", "run", "check", "verify", "verify --rerun"] {
-        let (code, printed) = toy.run(line);
-        assert_eq!(code, 2, "{line}: {printed}");
-        assert!(printed.contains("../phys/src/lib.rs has changed since"), "{line}: {printed}");
-        assert!(printed.contains("run `cargo build`"), "{line}: {printed}");
+        toy.expect(line, 2, &["../phys/src/lib.rs has changed since", "run `cargo build`"]);
     }
-    toy.build(&[]);
-    let (code, printed) = toy.run("paper --dry-run");
-    assert!(
-        code == 1 && printed.contains("sum: run again, ../phys/src/lib.rs changed"),
-        "{printed}"
-    );
+    toy.build(&[], &[]);
+    toy.expect("paper --dry-run", 1, &["sum: run again, ../phys/src/lib.rs changed"]);
 
     // A figure is drawn into the report only if nothing else there is stale.
-    let (code, printed) = toy.run("paper --figure line");
-    assert!(code == 0 && printed.contains("target/figures: "), "{printed}");
-    assert!(toy.report().contains("The sum is 15."));
-    assert_eq!(toy.run("paper").0, 0);
-    assert!(toy.report().contains("The sum is 30."), "{}", toy.report());
-    let (code, printed) = toy.run("paper --figure line");
-    assert!(code == 0 && printed.contains("paper: 2 files"), "{printed}");
+    toy.expect("paper --figure line", 0, &["target/figures: "]);
+    toy.expect_report("The sum is 15.");
+    toy.expect("paper", 0, &[]);
+    toy.expect_report("The sum is 30.");
+    toy.expect("paper --figure line", 0, &["paper: 2 files"]);
 
     // So is a report whose prose has changed since.
-    toy.write(
-        "toy/prose/report.md",
-        "# Sum\n\nIt is «sum.all.value».\n\n![A line](figures/line.svg)\n",
-    );
-    for (line, code) in [("paper --dry-run", 1), ("verify", 1), ("check", 1)] {
-        let (exit, printed) = toy.run(line);
-        assert!(
-            exit == code && printed.contains("not as prose, published numbers"),
-            "{line}: {printed}"
-        );
+    let prose = "# Sum\n\nIt is «sum.all.value».\n\n![A line](figures/line.svg)\n";
+    toy.write("toy/prose/report.md", prose);
+    for line in ["paper --dry-run", "verify", "check"] {
+        toy.expect(line, 1, &["not as prose, published numbers"]);
     }
 
-    toy.build(&["--features=heavy"]);
-    let (code, printed) = toy.run("paper --dry-run");
-    assert!(code == 1 && printed.contains("feature heavy changed"), "{printed}");
+    toy.build(&["--features=heavy"], &[]);
+    toy.expect("paper --dry-run", 1, &["feature heavy changed"]);
 
     // A variable that code takes when it is compiled.
-    assert_eq!(toy.run("paper").0, 0);
-    toy.build_with(&["--features=heavy"], &[("TOY_TAKEN", "64")]);
-    let (code, printed) = toy.run("paper --dry-run");
-    assert!(code == 1 && printed.contains("TOY_TAKEN when compiled changed"), "{printed}");
+    toy.expect("paper", 0, &[]);
+    toy.build(&["--features=heavy"], &[("TOY_TAKEN", "64")]);
+    toy.expect("paper --dry-run", 1, &["TOY_TAKEN when compiled changed"]);
 
     // A file that is put back with its old time, which cargo does not see.
     let old = toy.folder.path().join("old.rs");
@@ -220,16 +203,11 @@ fn a_result_is_stale_as_soon_as_what_made_it_has_changed() {
     let before = fs::metadata(&path).unwrap().modified().unwrap() - hour;
     fs::File::options().write(true).open(&old).unwrap().set_modified(before).unwrap();
     fs::rename(&old, &path).unwrap();
-    let (code, printed) = toy.run("paper");
-    assert!(code == 2 && printed.contains("is not what this program was built from"), "{printed}");
+    toy.expect("paper", 2, &["is not what this program was built from"]);
 
     // A copy without the list of cargo is known by its bytes.
     let copy = toy.folder.path().join("copy");
-    fs::copy(toy.target.join("release/literate-toy"), &copy).unwrap();
-    let output = Command::new(copy)
-        .args(["paper", "--dry-run"])
-        .current_dir(toy.folder.path().join("toy"))
-        .output();
-    let printed = String::from_utf8(output.unwrap().stdout).unwrap();
+    fs::copy(program, &copy).unwrap();
+    let (_, printed) = toy.run(&copy, "paper --dry-run");
     assert!(printed.contains("sum: run again, "), "{printed}");
 }

@@ -88,11 +88,8 @@ fn with_script(folder: &Path, script: &str, argument: &str, line: &str) -> Comma
     program
 }
 
-fn run(folder: &Path, line: &str) -> (i32, String, String) {
-    ended(program(folder, line))
-}
-
-fn ended(mut program: Command) -> (i32, String, String) {
+/// Runs a program, and returns its exit code and what it printed on both streams.
+fn run(mut program: Command) -> (i32, String, String) {
     let output = program.output().unwrap();
     let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
     (output.status.code().unwrap_or(-1), text(&output.stdout), text(&output.stderr))
@@ -107,7 +104,7 @@ fn the_advice_of_verify_works_as_it_is_printed() {
     for file in prose.read_dir().unwrap().map(Result::unwrap) {
         std::fs::copy(file.path(), folder.path().join("prose").join(file.file_name())).unwrap();
     }
-    let made = |line: &str| run(folder.path(), &format!("{line} --templates prose"));
+    let made = |line: &str| run(program(folder.path(), &format!("{line} --templates prose")));
     assert_eq!(made("paper").0, 0);
     // A saved result that is wrong, and looks fresh.
     let saved = folder.path().join("target/results/cascade-full.json");
@@ -166,7 +163,7 @@ fn what_a_command_says_is_shown_and_explained() {
     let here = folder.path().display();
     let table = r#"{"rows": {"columns": ["b"], "rows": [[7]]}}"#;
     let script = format!("echo a warning >&2; echo progress 1/2 >&2; echo '{table}'");
-    let made = |line: String| ended(with_script(folder.path(), &script, "", &line));
+    let made = |line: String| run(with_script(folder.path(), &script, "", &line));
     let (_, _, note) = made(format!("paper --templates examples/feigenbaum --out {here}/paper"));
     assert!(note.starts_with("2 experiments to run on ") && note.contains(", time unknown\n"));
     assert!(note.contains("\ntoy: a warning\n") && !note.contains("progress"), "{note}");

@@ -21,8 +21,7 @@ pub fn sources(folders: TokenStream) -> TokenStream {
     })
 }
 
-/// Returns the paths of Cargo.toml and Cargo.lock of the package, and of the workspace in which it
-/// lies.
+/// Returns the paths of Cargo.toml and Cargo.lock of the package and of its workspace.
 fn manifests() -> Vec<String> {
     let (top, mut files) = (top(), Vec::new());
     let (mut passed, mut way) = (Vec::new(), String::new());
@@ -42,8 +41,7 @@ fn manifests() -> Vec<String> {
     files
 }
 
-/// Lists what changes the meaning of code, each with its value: the compiler, features and other
-/// conditions, level of optimisation, checks, processor.
+/// Lists what changes the meaning of code: compiler, features, conditions, options.
 fn compiled() -> Vec<(String, String)> {
     const OPTIONS: [&str; 5] =
         ["opt-level", "debug-assertions", "overflow-checks", "target-cpu", "target-feature"];
@@ -66,15 +64,13 @@ fn compiled() -> Vec<(String, String)> {
     compiled
 }
 
-/// Paths and texts of files, as `&[(&str, &str)]`: of the named files, and of every text below the
-/// named folders.
+/// Paths and texts of files, and of every text below folders, as `&[(&str, &str)]`.
 #[proc_macro]
 pub fn texts(places: TokenStream) -> TokenStream {
     let endings = ["md", "tex", "bib", "toml", "html", "css", "js", "json"];
     code(files_below(quoted_words(places), &endings), |list| format!("&[{list}]"))
 }
 
-/// Returns the folder of the crate's Cargo.toml.
 fn top() -> String {
     std::env::var("CARGO_MANIFEST_DIR").unwrap_or_default()
 }
@@ -90,13 +86,11 @@ fn code(files: Result<Vec<String>, String>, whole: impl Fn(&str) -> String) -> T
     tokens.parse().unwrap_or_default()
 }
 
-/// Returns the words in quotation marks.
 fn quoted_words(tokens: TokenStream) -> Vec<String> {
     tokens.to_string().split('"').skip(1).step_by(2).map(String::from).collect()
 }
 
-/// Returns the paths of all files with one of these endings below the places that were given,
-/// sorted.
+/// Returns the sorted paths of all files with one of these endings below some places.
 fn files_below(places: Vec<String>, endings: &[&str]) -> Result<Vec<String>, String> {
     let (mut files, mut open) = (Vec::new(), places);
     while let Some(place) = open.pop() {

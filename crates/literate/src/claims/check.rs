@@ -1,6 +1,6 @@
 //! Defines a check: a statement or relation with what was found, the tolerance and the verdict.
 
-use super::text::Text;
+use super::texts::Text;
 use serde::{Deserialize, Serialize};
 
 /// What a check judges.
@@ -89,22 +89,19 @@ impl Verdict {
     }
 }
 
-/// A statement or relation, judged; texts are saved as they are printed.
+/// A [`Statement`](super::Statement) or relation, judged; texts are saved as they are printed.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Check {
     /// What it judges.
     pub kind: Kind,
-    /// The author's word for a difference that is explained, such as `misprint`.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub(crate) why: String,
-    /// The sentence of which it is one reading of several; empty if it is the only one.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub(crate) sentence: String,
     /// The id of its statement or relation.
     pub id: String,
     /// Where it was printed; empty for a relation.
     pub(crate) place: String,
-    /// What it states, in our words.
     pub(crate) statement: String,
     /// What can be read there, in its shortest form.
     pub(crate) expected: String,
@@ -133,12 +130,17 @@ impl Check {
 
     /// Adds an explanation; unless it predicts what is found (`holds`), the check fails.
     pub fn explained(self, why: impl Into<Text>, holds: bool) -> Check {
+        self.note(why).explained_if(holds)
+    }
+
+    /// Takes its note for an explanation: unless this predicts what is found, the check fails.
+    pub fn explained_if(self, holds: bool) -> Check {
         let verdict = match (self.verdict, holds) {
             (_, false) => Verdict::Differs,
             (Verdict::Differs, true) => Verdict::DiffersAndExplained,
             (verdict, true) => verdict,
         };
-        Check { verdict, ..self }.note(why)
+        Check { verdict, ..self }
     }
 
     pub(crate) fn with_tolerance(self, tolerance: impl Into<Text>, reason: &str) -> Check {
@@ -150,8 +152,8 @@ impl Check {
         Check { note: note.into(), ..self }
     }
 
-    /// Returns whether a report is to be refused for it: for a difference without an explanation
-    /// that holds, and for a statement that is open without a reason.
+    /// Returns whether a report is to be refused for it: a difference without an explanation that
+    /// holds, or a statement that is open without a reason.
     pub fn fails(&self) -> bool {
         let is_open = self.verdict == Verdict::CannotBeJudged && self.note.is_empty();
         self.verdict == Verdict::Differs || is_open

@@ -3,12 +3,12 @@
 use super::check::{Basis, Check};
 use super::level::CheckLevel;
 use super::published::{Published, PublishedError, Statement};
-use super::text::Text;
+use super::texts::{KEYS, Numbers, Text};
 use crate::claims::text;
 use crate::experiments::{self, Results};
 use crate::sample::Sampled;
 use crate::table::Missing;
-use crate::value::{Digits, Number, Provenance};
+use crate::value::{Digits, Number, Provenance, Value};
 use impact_numerics::estimates::with_error;
 use impact_numerics::statistics::Estimate;
 
@@ -98,24 +98,25 @@ impl Evidence<'_> {
     /// Judges the number of a cell: it has to round to the printed one, with room for its error.
     #[track_caller]
     pub fn cell(&self, address: &str) -> Judged {
-        let half = self.statement.half_unit();
-        let chance = self.chance(address)?;
+        let (cell, half) = (self.results.cell(address)?, self.statement.half_unit());
+        let chance = self.chance(cell)?;
         let reason = match chance {
             None | Some([0.0, 0.0]) => "half a unit of the last printed digit",
             _ => "half a unit of the last printed digit, and the statistical error",
         };
-        let check =
-            self.compared(address, half, chance)?.with_tolerance(text!("± {:1}", half), reason);
+        let check = self.compared(cell, half, chance)?;
+        let check = check.with_tolerance(text!("± {:1}", half), reason);
         Ok(Check { basis: Basis::PrintedDigit, ..check })
     }
 
-    /// Judges the number of a cell by its standard error alone: the printed one lies no further
-    /// than chance at the level of the statistical checks allows, by Student's distribution for the
-    /// mean of few values and the exact interval for a share. Equal values have no error, and leave
-    /// a statement of another number undecided.
+    /// Judges the number of a cell by its standard error alone: the printed one lies within what
+    /// chance allows at the level of the statistical checks, by Student's distribution for few
+    /// values and exactly for a share. Equal values, without an error, leave others undecided.
     #[track_caller]
     pub fn within_errors(&self, address: &str) -> Judged {
-        let (chance, value) = (self.chance(address)?, self.number(address)? * self.scale(address)?);
+        let cell = self.results.cell(address)?;
+        let chance = self.chance(cell)?;
+        let value = cell.as_f64().ok_or(Error::Undecided)? * scale(cell);
         let [below, above] = chance.unwrap_or_default();
         let tolerance = if below == above {
             text!("± {:1}", above)
@@ -123,50 +124,35 @@ impl Evidence<'_> {
             text!("{:2} to {:2}", value - below, value + above)
         };
         let reason = "standard errors at the level of the table";
-        let check = self.compared(address, 0.0, chance)?.with_tolerance(tolerance, reason);
+        let check = self.compared(cell, 0.0, chance)?.with_tolerance(tolerance, reason);
         Ok(Check { basis: Basis::Statistics, ..check })
     }
 
     /// Judges the number of a cell by a measure of ours: it lies no further from the printed one.
     #[track_caller]
     pub fn near(&self, address: &str, tolerance: f64, reason: &str) -> Judged {
-        let check = self.compared(address, tolerance, Some([0.0; 2]))?;
+        let check = self.compared(self.results.cell(address)?, tolerance, Some([0.0; 2]))?;
         let check = check.with_tolerance(text!("± {}", tolerance), reason);
         Ok(Check { basis: Basis::OurMeasure, ..check })
     }
 
-    /// Returns how far below and above the number of a cell the true one may lie by chance, or
-    /// `None` if that is unknown.
-    #[track_caller]
-    fn chance(&self, address: &str) -> Result<Option<[f64; 2]>, Error> {
-        let Provenance::Ensemble { sample, .. } = self.results.cell(address)?.kind else {
-            return Ok(Some([0.0; 2]));
-        };
-        let sampled = Sampled { estimate: self.estimate(address)?, sample };
-        let is_sure = sample.is_unknown() && sampled.error == 0.0;
-        let scale = self.scale(address)?;
-        let room = |level: CheckLevel| level.room(sampled).map(|room| room.map(|by| by * scale));
-        if is_sure { Ok(None) } else { self.level().map(room) }
+    /// Returns how far below and above a number the true one may lie, or `None` if that is unknown.
+    fn chance(&self, cell: &Value) -> Result<Option<[f64; 2]>, Error> {
+        let Provenance::Ensemble { sample, .. } = cell.kind else { return Ok(Some([0.0; 2])) };
+        let sampled = Sampled { estimate: cell.estimate().ok_or(Error::Undecided)?, sample };
+        if sample.is_unknown() && sampled.estimate.error == 0.0 {
+            return Ok(None);
+        }
+        let room = self.level()?.room(sampled);
+        Ok(room.map(|room| room.map(|distance| distance * scale(cell))))
     }
 
-    /// Returns the factor that converts the unit of a cell to 1, in which printed percentages are
-    /// kept.
-    #[track_caller]
-    fn scale(&self, address: &str) -> Result<f64, Error> {
-        Ok(match self.results.cell(address)?.unit.trim_matches('$') {
-            "%" => 0.01,
-            "‰" => 0.001,
-            _ => 1.0,
-        })
-    }
-
-    /// Starts the check of a cell: the printed number lies no further from it than `room` and
-    /// chance allow. If chance is unknown, a larger distance leaves the check undecided.
-    #[track_caller]
-    fn compared(&self, address: &str, room: f64, chance: Option<[f64; 2]>) -> Judged {
-        let (estimate, printed) = (self.estimate(address)?, self.statement.number()?);
-        let scale = self.scale(address)?;
-        let shown_number = match self.results.cell(address)?.number {
+    /// Starts the check of a cell: the printed number lies within `room` and chance of it, or the
+    /// check is undecided if chance is unknown.
+    fn compared(&self, cell: &Value, room: f64, chance: Option<[f64; 2]>) -> Judged {
+        let estimate = cell.estimate().ok_or(Error::Undecided)?;
+        let (printed, scale) = (self.statement.number()?, scale(cell));
+        let shown_number = match cell.number {
             _ if scale < 1.0 => with_error(estimate.value * scale, estimate.error * scale).into(),
             Number::Real { value, .. } if estimate.error == 0.0 => {
                 let places = self.statement.decimals.unwrap_or(0) + 2;
@@ -190,12 +176,32 @@ impl Evidence<'_> {
         Ok(self.found(shown_number, agrees))
     }
 
+    /// Makes the check of all its texts with the numbers in them; `None` leaves it open.
+    pub fn check(&self, agrees: impl Into<Option<bool>>, numbers: Numbers<'_>) -> Judged {
+        let [found, tolerance, reason, note] = self.fill(KEYS, numbers)?;
+        let check = self.open(found).note(note);
+        Ok(match agrees.into() {
+            Some(agrees) => check.judged(agrees).with_tolerance(tolerance, &reason.to_string()),
+            None => check,
+        })
+    }
+
+    /// Makes one text of the check, for one that some results alone have or that has other numbers.
+    pub fn sentence(&self, key: &str, numbers: Numbers<'_>) -> Result<Text, Error> {
+        let [text] = self.fill([key], numbers)?;
+        Ok(text)
+    }
+
+    fn fill<const N: usize>(&self, keys: [&str; N], numbers: Numbers) -> Result<[Text; N], Error> {
+        let texts = self.published.words.fill(&self.statement.id, keys, numbers);
+        Ok(texts.map_err(PublishedError)?)
+    }
+
     /// Starts a check that the results do not decide; without a note it [fails](Check::fails).
     pub fn open(&self, found: impl Into<Text>) -> Check {
         self.statement.open(found)
     }
 
-    /// Starts a check with what was found, and whether it agrees with what was printed.
     pub(crate) fn found(&self, found: impl Into<Text>, agrees: bool) -> Check {
         self.open(found).judged(agrees)
     }
@@ -211,5 +217,14 @@ impl Evidence<'_> {
         let result = text!("largest relative deviation {:1}", largest);
         let reason = "rounding in double precision, with room for the length of the sums";
         self.found(result, largest <= allowed).with_tolerance(text!("{:1}", allowed), reason)
+    }
+}
+
+/// Returns the factor that converts the unit of a cell to 1, in which printed percentages are kept.
+fn scale(cell: &Value) -> f64 {
+    match cell.unit.trim_matches('$') {
+        "%" => 0.01,
+        "‰" => 0.001,
+        _ => 1.0,
     }
 }

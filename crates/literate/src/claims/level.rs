@@ -1,7 +1,7 @@
 //! Computes the level of each statistical check, so that all together rarely fail by chance.
 
 use crate::sample::{Sample, Sampled};
-use impact_numerics::statistics::{clopper_pearson, normal_quantile, student_quantile};
+use impact_numerics::statistics::{Estimate, clopper_pearson, normal_quantile, student_quantile};
 
 /// The probability that at least one statistical check fails although all hold (ours).
 pub const FAMILY_LEVEL: f64 = 0.01;
@@ -18,7 +18,6 @@ pub struct CheckLevel {
 }
 
 impl CheckLevel {
-    /// Returns the level for this number of checks (at least one).
     pub(crate) fn for_checks(claims: usize) -> CheckLevel {
         let each = -pxfm::f_expm1(pxfm::f_log1p(-FAMILY_LEVEL) / claims.max(1) as f64);
         let quantile = (100.0 * normal_quantile(1.0 - each)).ceil() / 100.0;
@@ -30,11 +29,10 @@ impl CheckLevel {
         CheckLevel::for_checks(self.claims.max(1) * rows.max(1)).quantile
     }
 
-    /// Returns how far below and above an estimate the true number may lie by chance, or `None` if
-    /// that is unknown: the error is zero, as that of equal values is, or the sample has fewer than
-    /// two.
+    /// Returns how far below and above an estimate the true number may lie by chance, or `None` for
+    /// an error of zero, as equal values have, or a sample of fewer than two.
     pub(crate) fn room(&self, sampled: Sampled) -> Option<[f64; 2]> {
-        let (value, level) = (sampled.value, 1.0 - self.each);
+        let (Estimate { value, error, .. }, level) = (sampled.estimate, 1.0 - self.each);
         match sampled.sample {
             Sample::Trials(_) if !(0.0..=1.0).contains(&value) => Some([0.0; 2]),
             Sample::Trials(trials) => {
@@ -42,12 +40,12 @@ impl CheckLevel {
                 let [low, high] = clopper_pearson(part, trials, level)?;
                 Some([value - low, high - value])
             }
-            _ if sampled.error <= 0.0 => None,
+            _ if error <= 0.0 => None,
             Sample::Values(values) => {
                 let quantile = student_quantile(level, values.checked_sub(1)? as usize)?;
-                Some([(100.0 * quantile).ceil() / 100.0 * sampled.error; 2])
+                Some([(100.0 * quantile).ceil() / 100.0 * error; 2])
             }
-            Sample::Unknown => Some([self.quantile * sampled.error; 2]),
+            Sample::Unknown => Some([self.quantile * error; 2]),
         }
     }
 }
@@ -69,7 +67,7 @@ mod tests {
                 (0..4).any(|_| {
                     let sample: Vec<f64> = (0..values).map(|_| normals.pair()[0]).collect();
                     let mean = average(&sample).unwrap();
-                    mean.value.abs() > level.room(mean).unwrap()[0]
+                    mean.estimate.value.abs() > level.room(mean).unwrap()[0]
                 })
             };
             let failed = (0..4000).filter(fails).count();
@@ -84,8 +82,9 @@ mod tests {
         for (trials, right) in [3, 20, 100].iter().flat_map(|n| rights.map(|right| (*n, right))) {
             let (mut failed, mut chance) = (0.0, (1.0 - right).powi(trials));
             for part in 0..=trials as u64 {
-                let estimate = share(part, trials as u64).unwrap();
-                let [below, above] = CheckLevel::for_checks(1).room(estimate).unwrap();
+                let share = share(part, trials as u64).unwrap();
+                let [below, above] = CheckLevel::for_checks(1).room(share).unwrap();
+                let estimate = share.estimate;
                 assert!(below + above > 0.0 && estimate.error > 0.0);
                 if !(-below..=above).contains(&(right - estimate.value)) {
                     failed += chance;

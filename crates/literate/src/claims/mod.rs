@@ -1,4 +1,4 @@
-//! Judges statements of a paper, and relations between its numbers: [`judge_all`].
+//! Judges statements of a paper, and relations between its numbers: [`Judge`].
 
 mod check;
 mod evidence;
@@ -6,9 +6,7 @@ mod level;
 mod numeral;
 mod published;
 mod rule;
-mod text;
 mod texts;
-mod words;
 mod wrong;
 
 pub(crate) use check::score;
@@ -17,10 +15,7 @@ pub use evidence::{Error, Evidence, Judged};
 pub use level::{CheckLevel, FAMILY_LEVEL};
 pub use published::{Published, PublishedError, Statement};
 pub(crate) use rule::check_rules;
-pub use rule::{Rule, ids_blind_to_number, judge_all, level_of};
-pub use text::Text;
-pub(crate) use text::text;
-pub use words::Numbers;
-pub(crate) use words::Words;
-pub use wrong::ids_never_moved;
+pub use rule::{Judge, Rule, level_of};
+pub use texts::{Numbers, Text};
+pub(crate) use texts::{Words, text};
 pub(crate) use wrong::is_trying;

@@ -3,8 +3,7 @@
 /// The largest exponent and number of decimals of a printed number.
 pub(super) const MAX_PLACES: i32 = 400;
 
-/// Writes a number with this many decimals, and without any if its last digit stands before the
-/// point.
+/// Writes a number with this many decimals, none if it is negative.
 pub(super) fn written(value: f64, decimals: i32) -> String {
     format!("{value:.*}", decimals.clamp(0, MAX_PLACES) as usize)
 }
@@ -22,9 +21,8 @@ pub(super) fn with_other_digit(number: &str) -> String {
 
 const RAISED: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹⁻";
 
-/// Reads a text that is a number alone, such as 0.12, 1.2e5, 3·10⁻⁴, 12 % or 0.5 ‰. Returns the
-/// number, and the place of its last digit: how many decimals it has when it is written without a
-/// power of ten, and −3 if it was printed in thousands.
+/// Reads a number alone, such as 0.12, 1.2e5, 3·10⁻⁴, 12 % or 0.5 ‰. Returns it and the place of
+/// its last digit: its decimals when written without a power of ten, −3 if in thousands.
 pub(super) fn number_alone(printed: &str) -> Option<(f64, i32)> {
     let printed = printed.replace('−', "-");
     let (printed, shift) = match (printed.strip_suffix('%'), printed.strip_suffix('‰')) {

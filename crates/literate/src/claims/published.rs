@@ -2,8 +2,7 @@
 
 use super::check::{Check, Kind};
 use super::numeral::{MAX_PLACES, number_alone, with_other_digit, written};
-use super::text::Text;
-use super::words::Words;
+use super::texts::{Text, Words};
 use crate::input::{one_line, toml_fault};
 use serde::Deserialize;
 use std::collections::BTreeSet;
@@ -120,11 +119,12 @@ impl Published {
     /// Refuses a parameter with another number than the one that a check uses.
     pub(super) fn compare(&self, id: &str, number: f64) -> Result<(), PublishedError> {
         let value = self.parameter(id)?;
+        if value == number {
+            return Ok(());
+        }
+        let problem = format!("the parameter {id:?} is {value}, and its check uses {number}");
         let remedy = "restore the one that is wrong";
-        let fault =
-            format!("the parameter {id:?} is {value}, and its check uses {number}; {remedy}");
-        let fault = PublishedError(format!("published.toml: {fault}"));
-        if value == number { Ok(()) } else { Err(fault) }
+        Err(PublishedError(format!("published.toml: {problem}; {remedy}")))
     }
 }
 
@@ -139,12 +139,6 @@ fn power_of_ten(exponent: i32) -> f64 {
 }
 
 impl Statement {
-    /// Makes a statement without a place, as of a relation between numbers.
-    pub(super) fn new(kind: Kind, id: &str, statement: &str) -> Statement {
-        let (id, statement) = (id.into(), statement.into());
-        Statement { kind, id, statement, ..Statement::default() }
-    }
-
     pub(super) fn fault(&self, problem: &str) -> PublishedError {
         PublishedError::in_entry(self.line, &self.id, problem)
     }

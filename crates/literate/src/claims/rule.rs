@@ -4,7 +4,7 @@ use super::check::{Basis, Check, Kind, Verdict};
 use super::evidence::{Error, Evidence, Judged};
 use super::level::CheckLevel;
 use super::published::{Published, Statement};
-use super::text::Text;
+use super::texts::Text;
 use crate::experiments::{Profile, Results};
 use std::panic::Location;
 
@@ -37,9 +37,8 @@ impl Rule {
         Rule { id, relation, reads, uses, basis, is_statistical, may_stay_open, place, judge }
     }
 
-    /// Makes it the rule of a relation between numbers that must hold. It may allow for standard
-    /// errors at the level of the statistical checks, and does not count as one of them. What it
-    /// says may be empty, and then stands among the texts of the checks.
+    /// Makes it the rule of a relation that must hold. It may allow for errors at the level of the
+    /// statistical checks, and is not counted. Empty words stand among the texts of the checks.
     pub fn relation(self, relation: &'static str) -> Rule {
         Rule { relation: Some(relation), ..self }
     }
@@ -66,8 +65,8 @@ impl Rule {
         Rule { uses: parameters.to_vec(), ..self }
     }
 
-    /// Lets it stay open, in the full profile too, where a number that it needs is not there, and
-    /// lets its tolerance be as large as the printed number; both fail otherwise.
+    /// Lets it stay open, in the full profile too, where a number is not there, and lets its
+    /// tolerance be as large as the printed number; both fail otherwise.
     pub fn may_stay_open(self) -> Rule {
         Rule { may_stay_open: true, ..self }
     }
@@ -79,13 +78,12 @@ impl Rule {
 
     /// Returns the statement that it judges, or one that is made of its relation.
     pub(super) fn statement(&self, published: &Published) -> Result<Statement, Error> {
-        match self.relation {
-            Some(relation) => {
-                let words = published.words.statement(self.id).unwrap_or(relation);
-                Ok(Statement::new(Kind::Relation, self.id, words))
-            }
-            None => Ok(published.statement(self.id)?.clone()),
-        }
+        let Some(relation) = self.relation else {
+            return Ok(published.statement(self.id)?.clone());
+        };
+        let statement = published.words.statement(self.id).unwrap_or(relation).into();
+        let (kind, id) = (Kind::Relation, self.id.into());
+        Ok(Statement { kind, id, statement, ..Statement::default() })
     }
 
     fn judged(&self, evidence: &Evidence<'_>) -> Judged {
@@ -99,12 +97,11 @@ impl Rule {
             }
         }
         let mut check = match (self.judge)(evidence) {
+            Err(Error::Undecided) if evidence.is_strict => {
+                evidence.open("a number that it needs is not there")
+            }
             Err(Error::Undecided) => {
-                if evidence.is_strict {
-                    evidence.open("a number that it needs is not there")
-                } else {
-                    evidence.open("–").note("The available results do not decide it.")
-                }
+                evidence.open("–").note("The available results do not decide it.")
             }
             judged => judged?,
         };
@@ -136,77 +133,69 @@ pub(crate) fn check_rules(published: &Published, rules: &[Rule]) -> Result<(), E
     Ok(())
 }
 
-/// What rules are judged by: printed statements, results, and the level of statistical checks.
+/// Judges by rules: what was printed, and the results.
 #[derive(Clone, Copy)]
-pub(super) struct Judge<'a> {
-    published: &'a Published,
-    pub results: &'a Results,
-    level: CheckLevel,
+pub struct Judge<'a> {
+    pub(super) published: &'a Published,
+    pub(super) rules: &'a [Rule],
+    pub(super) results: &'a Results,
+    pub(super) level: CheckLevel,
 }
 
 impl<'a> Judge<'a> {
-    pub fn new(published: &'a Published, rules: &[Rule], results: &'a Results) -> Judge<'a> {
-        Judge { published, results, level: level_of(rules) }
+    /// Makes a judge of these statements by these rules and results.
+    pub fn new(published: &'a Published, rules: &'a [Rule], results: &'a Results) -> Judge<'a> {
+        Judge { published, rules, results, level: level_of(rules) }
     }
 
-    pub fn check(&self, rule: &Rule, statement: &Statement) -> Judged {
-        let Judge { published, results, level } = *self;
+    pub(super) fn check(&self, rule: &Rule, statement: &Statement) -> Judged {
+        let Judge { published, results, level, .. } = *self;
         let allows_errors = rule.is_statistical || !rule.is_of_statement();
         // Small samples may decide nothing.
         let is_strict = results.profile == Profile::Full && !rule.may_stay_open;
-        let level = Some(level).filter(|_| allows_errors);
+        let level = allows_errors.then_some(level);
         let judged = rule.judged(&Evidence { statement, results, published, level, is_strict });
         judged.map_err(|error| Error::Check(rule.id.into(), Box::new(error)))
     }
-}
 
-/// Judges all statements, first those that rest on a measure of ours, and then all relations. A
-/// statement without a rule stays open and [fails](Check::fails); a rule without a statement, or a
-/// number, is an error.
-pub fn judge_all(
-    published: &Published,
-    rules: &[Rule],
-    results: &Results,
-) -> Result<Vec<Check>, Error> {
-    check_rules(published, rules)?;
-    results.tables()?;
-    let judge = Judge::new(published, rules, results);
-    let mut checks = Vec::new();
-    for statement in &published.statements {
-        let rule = rules.iter().find(|rule| rule.is_of_statement() && rule.id == statement.id);
-        checks.push(match rule {
-            Some(rule) => judge.check(rule, statement)?,
-            None => statement.open("–"),
-        });
+    /// Judges all statements, first those that rest on a measure of ours, then all relations. One
+    /// without a rule stays open and [fails](Check::fails); a rule without one is an error.
+    pub fn checks(&self) -> Result<Vec<Check>, Error> {
+        let Judge { published, rules, results, .. } = *self;
+        check_rules(published, rules)?;
+        results.tables()?;
+        let mut checks = Vec::new();
+        for statement in &published.statements {
+            let rule = rules.iter().find(|rule| rule.is_of_statement() && rule.id == statement.id);
+            checks.push(match rule {
+                Some(rule) => self.check(rule, statement)?,
+                None => statement.open("–"),
+            });
+        }
+        for rule in rules.iter().filter(|rule| !rule.is_of_statement()) {
+            checks.push(self.check(rule, &rule.statement(published)?)?);
+        }
+        checks.sort_by_key(|check| (check.kind, check.basis != Basis::OurMeasure));
+        Ok(checks)
     }
-    for rule in rules.iter().filter(|rule| !rule.is_of_statement()) {
-        checks.push(judge.check(rule, &rule.statement(published)?)?);
-    }
-    checks.sort_by_key(|check| (check.kind, check.basis != Basis::OurMeasure));
-    Ok(checks)
-}
 
-/// Judges each statement once more with another first digit in its number. Returns the ids of those
-/// that are still reproduced or explained: their verdicts say nothing about the number.
-pub fn ids_blind_to_number(
-    published: &Published,
-    rules: &[Rule],
-    results: &Results,
-) -> Vec<&'static str> {
-    let judge = Judge::new(published, rules, results);
-    let is_blind = |rule: &&Rule| {
-        let misprint = published.statement(rule.id).ok().and_then(Statement::misprint);
-        let verdict = misprint.map(|misprint| judge.check(rule, &misprint).map(|it| it.verdict));
-        matches!(verdict, Some(Ok(Verdict::Reproduced | Verdict::DiffersAndExplained)))
-    };
-    let rules = rules.iter().filter(|rule| rule.is_of_statement());
-    rules.filter(is_blind).map(|rule| rule.id).collect()
+    /// Judges each statement once more with another first digit in its number. Returns the ids of
+    /// those that are still reproduced or explained: their verdicts say nothing about the number.
+    pub fn ids_blind_to_number(&self) -> Vec<&'static str> {
+        let is_blind = |rule: &&Rule| {
+            let misprint = self.published.statement(rule.id).ok().and_then(Statement::misprint);
+            let check = misprint.map(|misprint| self.check(rule, &misprint));
+            let verdict = check.map(|check| check.map(|check| check.verdict));
+            matches!(verdict, Some(Ok(Verdict::Reproduced | Verdict::DiffersAndExplained)))
+        };
+        let rules = self.rules.iter().filter(|rule| rule.is_of_statement());
+        rules.filter(is_blind).map(|rule| rule.id).collect()
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::claims::ids_never_moved;
     use crate::claims::text;
     use crate::table::Table;
     use impact_numerics::statistics::Estimate;
@@ -226,7 +215,7 @@ mod tests {
     }
 
     fn judged(rules: &[Rule]) -> Result<Vec<Check>, Error> {
-        judge_all(&Published::parse(PUBLISHED).unwrap(), rules, &results())
+        Judge::new(&Published::parse(PUBLISHED).unwrap(), rules, &results()).checks()
     }
 
     fn refused(id: &'static str, judge: fn(&Evidence<'_>) -> Judged) -> String {
@@ -235,34 +224,33 @@ mod tests {
 
     #[test]
     fn a_cell_is_compared_with_what_was_printed() {
-        let judge = |judge: fn(&Evidence<'_>) -> Judged| {
-            let rules = ["rise", "mean"].map(|id| Rule::new(id, judge).statistical());
-            let checks = judged(&rules).unwrap();
-            (checks.iter().map(|check| check.verdict).collect::<Vec<_>>(), checks)
-        };
-        use Verdict::{
-            CannotBeJudged as Open, Differs as No, DiffersAndExplained, Reproduced as Yes,
-        };
-        // Printed are 0.12, 0.11 and a word; found is 0.1152, once with an error of 0.002.
-        let (verdicts, checks) = judge(|e| e.cell("toy.all.rise"));
-        assert_eq!(verdicts, [Yes, No, Open, Open]);
-        assert_eq!(checks[0].found.to_string(), "0.1152");
-        assert_eq!(checks[0].tolerance.to_string(), "± 0.005");
-        let (verdicts, checks) = judge(|e| e.cell("toy.all.mean"));
-        assert_eq!(verdicts, [Yes, Yes, Open, Open]);
-        assert_eq!(checks[1].found.to_string(), "0.115(2)");
-        let (verdicts, checks) = judge(|e| e.within_errors("toy.all.mean"));
-        assert_eq!(checks[0].tolerance.to_string(), "± 0.006", "2.94 standard errors");
-        assert_eq!(verdicts, [Yes, Yes, Open, Open]);
-        let (verdicts, checks) = judge(|e| e.near("toy.all.rise", 1e-3, "ours"));
-        assert_eq!(checks[0].tolerance.to_string(), "± 0.001");
-        assert_eq!(verdicts, [No, No, Open, Open]);
-        let (verdicts, _) = judge(|e| Ok(e.cell("toy.all.rise")?.explained("why", true)));
-        assert_eq!(verdicts, [Yes, DiffersAndExplained, Open, Open]);
-        let (verdicts, checks) = judge(|e| Ok(e.cell("toy.all.rise")?.explained("why", false)));
-        assert_eq!(verdicts, [No, No, Open, Open]);
-        assert!(checks.iter().all(Check::fails), "a statement without a rule fails too");
-        assert!(!checks[3].clone().note("It is a likeness in words.").fails());
+        use Verdict::{CannotBeJudged as Open, Differs as No, Reproduced as Yes};
+        fn explained<const HOLDS: bool>(e: &Evidence<'_>) -> Judged {
+            Ok(e.cell("toy.all.rise")?.explained("why", HOLDS))
+        }
+        // Printed are 0.12, 0.11 and a word; found is 0.1152, once with an error of 0.002, of which
+        // 2.94 are allowed.
+        type Judges = fn(&Evidence<'_>) -> Judged;
+        let cases: [(Judges, _, _, _); 6] = [
+            (|e| e.cell("toy.all.rise"), [Yes, No], "0.1152", "± 0.005"),
+            (|e| e.cell("toy.all.mean"), [Yes, Yes], "0.115(2)", "± 0.005"),
+            (|e| e.within_errors("toy.all.mean"), [Yes, Yes], "0.115(2)", "± 0.006"),
+            (|e| e.near("toy.all.rise", 1e-3, "ours"), [No, No], "0.1152", "± 0.001"),
+            (explained::<true>, [Yes, Verdict::DiffersAndExplained], "0.1152", "± 0.005"),
+            (explained::<false>, [No, No], "0.1152", "± 0.005"),
+        ];
+        for (judge, [rise, mean], found, tolerance) in cases {
+            let checks = judged(&["rise", "mean"].map(|id| Rule::new(id, judge).statistical()));
+            let checks = checks.unwrap();
+            let verdicts: Vec<Verdict> = checks.iter().map(|check| check.verdict).collect();
+            assert_eq!(verdicts, [rise, mean, Open, Open]);
+            let texts = [&checks[0].found, &checks[0].tolerance].map(Text::to_string);
+            assert_eq!(texts, [found, tolerance]);
+            let without = &checks[2..];
+            assert!(without.iter().all(Check::fails), "a statement without a rule fails too");
+            assert!(!checks[3].clone().note("It is a likeness in words.").fails());
+            assert!(rise == Yes || checks[0].fails() && checks[1].fails());
+        }
     }
 
     /// Printed is 0.10: 0.0152 away, where half a unit and 2.58 errors are 0.0102, and twice as
@@ -270,8 +258,8 @@ mod tests {
     #[test]
     fn a_cell_has_room_for_its_errors_once() {
         let published = Published::parse(&PUBLISHED.replace("0.11", "0.10")).unwrap();
-        let rule = Rule::new("mean", |e| e.cell("toy.all.mean")).statistical();
-        let checks = judge_all(&published, &[rule], &results()).unwrap();
+        let rules = [Rule::new("mean", |e| e.cell("toy.all.mean")).statistical()];
+        let checks = Judge::new(&published, &rules, &results()).checks().unwrap();
         assert_eq!(checks[1].verdict, Verdict::Differs);
     }
 
@@ -281,12 +269,12 @@ mod tests {
     fn shares_equal_values_and_few_are_not_certain() {
         use crate::sample::{Sampled, average, share};
         let judge = |sampled: Option<Sampled>, judge: fn(&Evidence<'_>) -> Judged| {
-            let table =
-                Table::builder("toy.all", &[()], |()| 9).estimate("mean", "1", "", |()| sampled);
+            let rows = Table::builder("toy.all", &[()], |()| 9);
+            let table = rows.estimate("mean", "1", "", |()| sampled);
             let published = Published::parse(PUBLISHED).unwrap();
             let results = Results::made_up(vec![table.done()]);
             let rule = [Rule::new("rise", judge).statistical()];
-            let mut checks = judge_all(&published, &rule, &results).unwrap();
+            let mut checks = Judge::new(&published, &rule, &results).checks().unwrap();
             (checks[0].verdict, std::mem::take(&mut checks[0].tolerance).to_string())
         };
         let within = |sampled| judge(sampled, |e| e.within_errors("toy.all.mean"));
@@ -323,7 +311,9 @@ mod tests {
             .relation("It never fails."),
         ];
         let published = Published::parse(PUBLISHED).unwrap();
-        let named = |open| ids_never_moved(&published, &rules, &results(), open).unwrap();
+        let results = results();
+        let judge = Judge::new(&published, &rules, &results);
+        let named = |open| judge.ids_never_moved(open).unwrap();
         assert_eq!(named(false), ["mean", "panics"]);
         assert_eq!(named(true), ["mean", "words", "panics"]);
     }

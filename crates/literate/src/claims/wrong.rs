@@ -3,7 +3,7 @@
 use super::check::{Kind, Verdict};
 use super::evidence::Error;
 use super::numeral::with_other_digit;
-use super::published::{Published, Statement};
+use super::published::Statement;
 use super::rule::{Judge, Rule};
 use crate::experiments::Results;
 use serde_json::Value;
@@ -14,8 +14,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 /// Makes a wrong number, or no number, of a number and its standard error.
 type Change = fn(f64, f64) -> Option<f64>;
 
-/// The changes, small ones first: another first digit, ten standard errors up or down, another
-/// sign, another size, no number.
+/// The changes, small ones first: first digit, ten standard errors, sign, size, no number.
 const CHANGES: [Change; 7] = [
     |value, _| with_other_digit(&value.to_string()).parse().ok(),
     |value, error| Some(value + 10.0 * error),
@@ -49,59 +48,57 @@ pub(crate) fn is_trying() -> bool {
     TRYING.get()
 }
 
-/// Changes the numbers that each rule reads, a column of a table or a field of a result at a time,
-/// and judges again. Returns the ids of statements that are reproduced whatever changes, and of
-/// those that are explained whatever changes a little: their verdicts cannot fail. With `open` also
-/// those that no change decides, which takes longer. Definitions are left out.
-pub fn ids_never_moved(
-    published: &Published,
-    rules: &[Rule],
-    results: &Results,
-    open: bool,
-) -> Result<Vec<&'static str>, Error> {
-    let mut unmoved = Vec::new();
-    for rule in rules {
-        let (statement, copy) = (rule.statement(published)?, results.copy());
-        let verdict = Judge::new(published, rules, &copy).check(rule, &statement)?.verdict;
-        if statement.kind != Kind::Definition && (open || verdict != Verdict::CannotBeJudged) {
-            unmoved.push(Unmoved { rule, statement, verdict, read: copy.read() });
+impl Judge<'_> {
+    /// Changes the numbers that each rule reads, a column of a table or a field of a result at a
+    /// time, and judges again. Returns the ids of statements that are reproduced whatever changes,
+    /// and of those that are explained whatever changes a little: their verdicts cannot fail. With
+    /// `open` also those that no change decides, which takes longer. Definitions are left out.
+    pub fn ids_never_moved(&self, open: bool) -> Result<Vec<&'static str>, Error> {
+        let results = self.results;
+        let mut unmoved = Vec::new();
+        for rule in self.rules {
+            let (statement, copy) = (rule.statement(self.published)?, results.copy());
+            let verdict = Judge { results: &copy, ..*self }.check(rule, &statement)?.verdict;
+            if statement.kind != Kind::Definition && (open || verdict != Verdict::CannotBeJudged) {
+                unmoved.push(Unmoved { rule, statement, verdict, read: copy.read() });
+            }
         }
-    }
-    let names: BTreeSet<String> = unmoved.iter().flat_map(|unmoved| unmoved.read.clone()).collect();
-    TRYING.set(true);
-    for name in &names {
-        let mut try_all = |wrong: &dyn Fn(Change) -> Option<Results>| {
-            for (number, change) in CHANGES.into_iter().enumerate() {
-                if !unmoved.iter().any(|rule| rule.read.contains(name)) {
-                    return;
+        let names: BTreeSet<String> = unmoved.iter().flat_map(|rule| rule.read.clone()).collect();
+        TRYING.set(true);
+        for name in &names {
+            let mut try_all = |wrong: &dyn Fn(Change) -> Option<Results>| {
+                for (number, change) in CHANGES.into_iter().enumerate() {
+                    if !unmoved.iter().any(|rule| rule.read.contains(name)) {
+                        return;
+                    }
+                    let Some(wrong) = &wrong(change) else { continue };
+                    let judge = Judge { results: wrong, ..*self };
+                    let moves = |rule: &Unmoved<'_>| {
+                        rule.read.contains(name) && rule.is_moved(judge, number < SMALL)
+                    };
+                    unmoved.retain(|rule| !moves(rule));
                 }
-                let Some(wrong) = &wrong(change) else { continue };
-                let judge = Judge::new(published, rules, wrong);
-                let moves = |rule: &Unmoved<'_>| {
-                    rule.read.contains(name) && rule.is_moved(judge, number < SMALL)
-                };
-                unmoved.retain(|rule| !moves(rule));
-            }
-        };
-        if let Ok(table) = results.table(name) {
-            for column in 0..table.names().count() {
-                let changed = |change| table.with_column_changed(column, change);
-                try_all(&|change| Some(results.with_table(changed(change)?)));
-            }
-        } else if let Some(result) = results.json(name) {
-            let mut paths = BTreeSet::new();
-            find_numbers(&result, &mut Vec::new(), &mut paths);
-            for path in paths {
-                try_all(&|change| {
-                    let mut wrong = result.clone();
-                    change_numbers(&mut wrong, &path, 0.0, change);
-                    results.with_json(name, wrong)
-                });
+            };
+            if let Ok(table) = results.table(name) {
+                for column in 0..table.names().count() {
+                    let changed = |change| table.with_column_changed(column, change);
+                    try_all(&|change| Some(results.with_table(changed(change)?)));
+                }
+            } else if let Some(result) = results.json(name) {
+                let mut paths = BTreeSet::new();
+                find_numbers(&result, &mut Vec::new(), &mut paths);
+                for path in paths {
+                    try_all(&|change| {
+                        let mut wrong = result.clone();
+                        change_numbers(&mut wrong, &path, 0.0, change);
+                        results.with_json(name, wrong)
+                    });
+                }
             }
         }
+        TRYING.set(false);
+        Ok(unmoved.iter().map(|unmoved| unmoved.rule.id).collect())
     }
-    TRYING.set(false);
-    Ok(unmoved.iter().map(|unmoved| unmoved.rule.id).collect())
 }
 
 impl Unmoved<'_> {

@@ -1,8 +1,8 @@
 //! Runs the verb `check`: judges every statement and relation.
 
-use super::common::{RunOptions, refuse_outdated, scores, verdict};
+use super::common::{RunOptions, scores, verdict};
 use super::terminal::print;
-use crate::claims::{Check, Verdict, ids_blind_to_number, ids_never_moved, judge_all};
+use crate::claims::{Check, Judge, Verdict};
 use crate::failure::Failure;
 use crate::input::one_line;
 use crate::paper::Paper;
@@ -37,8 +37,8 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
-    let session = args.options.session(paper)?;
-    let published = paper.published(&session)?;
+    let run = args.options.open(paper, None)?;
+    let published = paper.published(&run.session)?;
     let relations = paper.rules.iter().filter(|rule| !rule.is_of_statement());
     let statements = published.statements.iter().map(|statement| statement.id.as_str());
     let ids: Vec<&str> = statements.chain(relations.map(|rule| rule.id)).collect();
@@ -50,14 +50,11 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
             return Err(Failure::input(format!("{problem}; `check -v` lists all")));
         }
     }
-    let (mut checks, mut blind, mut unmoved) =
-        args.options.threads.run(|| -> Result<_, Failure> {
-            let results = paper.results(&paper.experiments, &session)?;
-            let blind = ids_blind_to_number(&published, &paper.rules, &results);
-            let checks = judge_all(&published, &paper.rules, &results)?;
-            let unmoved = ids_never_moved(&published, &paper.rules, &results, args.verbose);
-            Ok((checks, blind, unmoved?))
-        })?;
+    let (mut checks, mut blind, mut unmoved) = args.options.threads.run(|| {
+        let results = paper.results(&paper.experiments, &run.session)?;
+        let judge = Judge::new(&published, &paper.rules, &results);
+        Ok((judge.checks()?, judge.ids_blind_to_number(), judge.ids_never_moved(args.verbose)?))
+    })?;
     let printed = checks.iter().filter(|check| check.kind.is_printed());
     let numbers: BTreeMap<String, String> =
         printed.zip(1..).map(|(check, number)| (check.id.clone(), number.to_string())).collect();
@@ -75,8 +72,7 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     ];
     print(&report_text(&checks, unfailing, &args, &numbers))?;
     verdict(&checks)?;
-    refuse_outdated(paper, &session, &args.options.out(paper))?;
-    Ok(())
+    run.refuse_outdated().map(drop)
 }
 
 /// Returns a line for each check that is not reproduced, failed ones first, and the scores; with

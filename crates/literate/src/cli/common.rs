@@ -31,54 +31,56 @@ impl RunOptions {
         self.results.clone().unwrap_or_else(|| paper.project.place("target/results"))
     }
 
-    /// Returns the folder of the report.
-    pub fn out(&self, paper: &Paper) -> PathBuf {
-        paper.project.place(match self.profile {
+    /// Opens a run for the report in a folder, which is that of the profile if none is given.
+    pub fn open<'a>(&self, paper: &'a Paper, out: Option<&Path>) -> Result<Run<'a>, Failure> {
+        let usual = match self.profile {
             Profile::Full => "paper",
             Profile::Quick => "target/paper-quick",
-        })
-    }
-
-    pub fn session<'a>(&self, paper: &'a Paper) -> Result<Session<'a>, Failure> {
-        let store = Store::open(&self.results(paper));
-        paper.session(self.templates.as_deref(), self.profile, store, Progress::on_stderr())
+        };
+        let out = out.map_or_else(|| paper.project.place(usual), Path::to_path_buf);
+        let (templates, store) = (self.templates.as_deref(), Store::open(&self.results(paper)));
+        let session = paper.session(templates, self.profile, store, Progress::on_stderr())?;
+        Ok(Run { paper, session, out })
     }
 }
 
-/// Returns the files of a report, of those that are committed, that are not as prose, printed
-/// numbers and saved results make them, or `None` if there is no such report or a result is stale.
-pub(super) fn outdated(
-    paper: &Paper,
-    session: &Session<'_>,
-    folder: &Path,
-) -> Result<Option<Vec<String>>, Failure> {
-    let stale = |one: &&'static dyn AnyExperiment| one.why_stale(session).transpose();
-    if profile_in(folder) != Some(session.profile)
-        || paper.experiments.iter().find_map(stale).transpose()?.is_some()
-    {
-        return Ok(None);
-    }
-    let (report, _) = make_report(paper, &session.silent(), folder)?;
-    let committed = report.into_iter().filter(|(path, _)| !folder::is_generated(path));
-    let faults = folder::compare(folder, &committed.collect())?.1;
-    let paths = faults.iter().filter(|fault| !fault.starts_with("unlisted"));
-    Ok(Some(paths.filter_map(|fault| Some(fault.split_once("  ")?.1.to_string())).collect()))
+/// What a verb works with: the paper, how it is made, and the folder of its report.
+pub(super) struct Run<'a> {
+    pub paper: &'a Paper,
+    pub session: Session<'a>,
+    pub out: PathBuf,
 }
 
-/// Fails if files of a report are [`outdated`]. Returns whether that is known.
-pub(super) fn refuse_outdated(
-    paper: &Paper,
-    session: &Session<'_>,
-    folder: &Path,
-) -> Result<bool, Failure> {
-    let Some(paths) = outdated(paper, session, folder)? else { return Ok(false) };
-    let names = match paths.as_slice() {
-        [] => return Ok(true),
-        [path] => path.clone(),
-        [first, others @ ..] => format!("{first} and {} more", others.len()),
-    };
-    let problem = "not as prose, published numbers and results make it; `paper` writes it anew";
-    Err(Failure::check(format!("{}: {names}: {problem}", display_path(folder))))
+impl Run<'_> {
+    /// Returns the files of the report, of those that are committed, that are not as prose, printed
+    /// numbers and saved results make them, or `None` if there is no report or a result is stale.
+    pub fn outdated(&self) -> Result<Option<Vec<String>>, Failure> {
+        let Run { paper, session, out } = self;
+        let stale = |one: &&'static dyn AnyExperiment| one.why_stale(session).transpose();
+        if profile_in(out) != Some(session.profile)
+            || paper.experiments.iter().find_map(stale).transpose()?.is_some()
+        {
+            return Ok(None);
+        }
+        let silent = Session { progress: Progress::silent(), ..session.clone() };
+        let (report, _) = make_report(paper, &silent, out)?;
+        let committed = report.into_iter().filter(|(path, _)| !folder::is_generated(path));
+        let faults = folder::compare(out, &committed.collect())?.1;
+        let paths = faults.iter().filter(|fault| !fault.starts_with("unlisted"));
+        Ok(Some(paths.filter_map(|fault| Some(fault.split_once("  ")?.1.to_string())).collect()))
+    }
+
+    /// Fails if files of the report are [outdated](Run::outdated). Returns whether that is known.
+    pub fn refuse_outdated(&self) -> Result<bool, Failure> {
+        let names = match self.outdated()?.as_deref() {
+            None => return Ok(false),
+            Some([]) => return Ok(true),
+            Some([path]) => path.clone(),
+            Some([first, others @ ..]) => format!("{first} and {} more", others.len()),
+        };
+        let problem = "not as prose, published numbers and results make it; `paper` writes it anew";
+        Err(Failure::check(format!("{}: {names}: {problem}", display_path(&self.out))))
+    }
 }
 
 /// Returns the profile of the report in a folder, or `None` if there is no report.
@@ -87,14 +89,11 @@ pub(super) fn profile_in(root: &Path) -> Option<Profile> {
     serde_json::from_str::<ValueRegistry>(&json).ok()?.profile()
 }
 
-fn of_kind(checks: &[Check], kind: Kind) -> impl Iterator<Item = &Check> + Clone {
-    checks.iter().filter(move |check| check.kind == kind)
-}
-
 /// Returns the scores, a line each: of statements, and of relations where there are any.
 pub(super) fn scores(checks: &[Check]) -> Vec<String> {
     let mut lines = Vec::new();
-    let statements = of_kind(checks, Kind::Statement);
+    let of_kind = |kind: Kind| checks.iter().filter(move |check| check.kind == kind);
+    let statements = of_kind(Kind::Statement);
     let number = statements.clone().count();
     if number > 0 {
         let mut counts = Vec::new();
@@ -112,7 +111,7 @@ pub(super) fn scores(checks: &[Check]) -> Vec<String> {
         }
         lines.push(format!("reproduced, by what the verdict rests on: {}", bases.join(", ")));
     }
-    let [held, _, broken, open] = score(of_kind(checks, Kind::Relation));
+    let [held, _, broken, open] = score(of_kind(Kind::Relation));
     let total = held + broken + open;
     if total > 0 {
         lines.push(format!("our own checks: {held} of {total} relations between numbers hold"));

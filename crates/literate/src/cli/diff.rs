@@ -134,10 +134,9 @@ fn rows(old: &[u8], new: &[u8]) -> String {
 
 /// Lists checks whose verdict, expected number or tolerance changed.
 fn checks(before: &Ledger, after: &Ledger) -> Vec<String> {
-    let ids: BTreeSet<&String> =
-        before.claims.iter().chain(&after.claims).map(|check| &check.id).collect();
+    let checks = before.claims.iter().chain(&after.claims);
     let mut lines = Vec::new();
-    for id in ids {
+    for id in checks.map(|check| &check.id).collect::<BTreeSet<_>>() {
         let find = |ledger: &'_ Ledger| ledger.claims.iter().find(|check| check.id == *id).cloned();
         let (old, new) = (find(before), find(after));
         let words = [&old, &new].map(|check| check.as_ref().map(Check::words));

@@ -73,10 +73,13 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
         }
     }
     let cards: Vec<Card> = ids.iter().filter_map(|id| cards.get(id)).collect();
-    let written = |card: &Card| if in_short { card_line(card) } else { card_text(card) };
-    let cards =
-        cards.iter().map(written).collect::<Vec<_>>().join(if in_short { "" } else { "\n" });
-    print(&(cards + &rows))
+    let cards: Vec<String> = if in_short {
+        let line = |card: &Card| format!("{:28} {}\n", clean(&card.id), spelt_line(&card.title));
+        vec![cards.iter().map(line).collect()]
+    } else {
+        cards.iter().map(card_text).collect()
+    };
+    print(&(cards.join("\n") + &rows))
 }
 
 /// Returns the rows of a data file that an address names, below the names and units of the columns,
@@ -103,10 +106,6 @@ fn read<T: DeserializeOwned>(paper: &Path, name: &str) -> Result<T, Failure> {
     let remedy = "make the report anew with `paper`";
     serde_json::from_str(&json)
         .map_err(|error| Failure::input(format!("--paper: {name}: {error}; {remedy}")))
-}
-
-fn card_line(card: &Card) -> String {
-    format!("{:28} {}\n", clean(&card.id), spelt_line(&card.title))
 }
 
 fn card_text(card: &Card) -> String {

@@ -1,6 +1,6 @@
 //! Runs the verb `paper`: makes the report, or says what would be run.
 
-use super::common::{RunOptions, outdated, profile_in, refuse_outdated, scores, verdict};
+use super::common::{Run, RunOptions, profile_in, scores, verdict};
 use super::terminal::{display_path, print};
 use crate::build::make_report;
 use crate::experiments::{AnyExperiment, Profile, Session};
@@ -9,7 +9,7 @@ use crate::input::{count, one_line};
 use crate::paper::{FigureSpec, Paper};
 use crate::report::{Files, files_of, folder};
 use crate::table::no_such;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 /// Run all experiments, draw all figures and write the report
@@ -52,27 +52,40 @@ pub(super) struct Args {
 pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     let began = Instant::now();
     let Args { options, force, .. } = args;
-    let mut out = args.out.clone().unwrap_or_else(|| options.out(paper));
-    let find =
-        |name: &String| paper.find_figure(name).map_err(|error| error.in_context("--figure"));
+    let find = |name: &String| paper.find_figure(name).map_err(|e| e.in_context("--figure"));
     let figures = args.figure.iter().map(find).collect::<Result<Vec<&FigureSpec>, Failure>>()?;
     let is_whole = figures.is_empty();
     let mut needs = paper.experiments.clone();
     if !is_whole {
         needs = figures.iter().flat_map(|figure| figure.needs).copied().collect();
     }
-    let session = options.session(paper)?;
+    let mut run = options.open(paper, args.out.as_deref())?;
     if args.dry_run {
-        return dry_run(paper, &session, &needs, &out);
+        return dry_run(&run, &needs);
     }
-    refuse_over_other(options.profile, &out, is_whole)?;
-    // A report has one state, so a figure is drawn into one that is as the results make it.
+    let earlier = profile_in(&run.out);
+    // Nothing is written over the full report, or among the figures of another profile.
+    if let Some(other) = earlier
+        && other != options.profile
+        && (!is_whole || other == Profile::Full)
+    {
+        let (place, name) = (run.out.display(), other.name());
+        let problem = format!("--out: {place} holds a report of the {name} profile");
+        return Err(Failure::input(format!("{problem}; give another folder")));
+    }
+    // A report has one state, so a figure is drawn into one that is as the results make it, but for
+    // the files of such figures.
+    let is_of_figures = |path: &String| {
+        let name = path.split(['/', '.']).nth(1).unwrap_or_default();
+        figures.iter().any(|figure| name.starts_with(figure.name))
+    };
     let apart = !is_whole
-        && (args.out.is_none() || profile_in(&out).is_some())
-        && !is_current_but_for(&figures, paper, &session, &out)?;
+        && (args.out.is_none() || earlier.is_some())
+        && !run.outdated()?.is_some_and(|paths| paths.iter().all(is_of_figures));
     if apart {
-        out = paper.project.place("target/figures");
+        run.out = paper.project.place("target/figures");
     }
+    let Run { session, out, .. } = run;
     let at_option = |error: folder::Error| Failure::from(error).in_context("--out");
     if !force {
         folder::refuse(&out, &Files::new(), is_whole).map_err(at_option)?;
@@ -91,8 +104,8 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     })?;
     folder::write(&out, &report, force).map_err(at_option)?;
     let number = count(report.len(), "file");
-    let mut line =
-        format!("{}: {number} in {:.1} s", display_path(&out), began.elapsed().as_secs_f64());
+    let (place, seconds) = (display_path(&out), began.elapsed().as_secs_f64());
+    let mut line = format!("{place}: {number} in {seconds:.1} s");
     if is_whole {
         let pages: Vec<&str> = paper.edition.documents.iter().map(|one| one.page).collect();
         line += &format!(": {}", pages.join(", "));
@@ -126,45 +139,13 @@ fn forget(names: &[String], paper: &Paper, session: &Session<'_>) -> Result<(), 
     Ok(())
 }
 
-/// Refuses to write over the full report, or a figure among those of another profile.
-fn refuse_over_other(profile: Profile, out: &Path, is_whole: bool) -> Result<(), Failure> {
-    match profile_in(out) {
-        Some(other) if other != profile && (!is_whole || other == Profile::Full) => {
-            let (place, name) = (out.display(), other.name());
-            let problem = format!("--out: {place} holds a report of the {name} profile");
-            Err(Failure::input(format!("{problem}; give another folder")))
-        }
-        _ => Ok(()),
-    }
-}
-
-/// Returns whether a folder has a report that is as prose and saved results make it, but for files
-/// of some figures.
-fn is_current_but_for(
-    figures: &[&FigureSpec],
-    paper: &Paper,
-    session: &Session<'_>,
-    out: &Path,
-) -> Result<bool, Failure> {
-    let is_of_figures = |path: &String| {
-        let name = path.split(['/', '.']).nth(1).unwrap_or_default();
-        figures.iter().any(|figure| name.starts_with(figure.name))
-    };
-    let paths = outdated(paper, session, out)?;
-    Ok(paths.is_some_and(|paths| paths.iter().all(is_of_figures)))
-}
-
-fn dry_run(
-    paper: &Paper,
-    session: &Session<'_>,
-    needs: &[&'static dyn AnyExperiment],
-    out: &Path,
-) -> Result<(), Failure> {
-    let stale = needs.iter().map(|need| need.why_stale(session)).collect::<Result<Vec<_>, _>>()?;
+fn dry_run(run: &Run<'_>, needs: &[&'static dyn AnyExperiment]) -> Result<(), Failure> {
+    let stale = needs.iter().map(|need| need.why_stale(&run.session));
+    let stale = stale.collect::<Result<Vec<_>, _>>()?;
     let stale: Vec<String> = stale.into_iter().flatten().map(|line| line + "\n").collect();
     print(&stale.concat())?;
     match stale.len() {
-        0 => refuse_outdated(paper, session, out).map(drop),
+        0 => run.refuse_outdated().map(drop),
         stale => Err(Failure::check(format!("{} to be run", count(stale, "experiment")))),
     }
 }

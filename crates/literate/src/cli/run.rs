@@ -27,8 +27,7 @@ pub(super) struct Args {
 }
 
 fn share(shard: &str) -> Result<(usize, usize), String> {
-    let read =
-        |shard: &str| shard.parse::<usize>().ok().filter(|number| (1..=MOST).contains(number));
+    let read = |number: &str| number.parse().ok().filter(|number| (1..=MOST).contains(number));
     match shard.split_once('/').map(|(i, n)| (read(i), read(n))) {
         Some((Some(i), Some(n))) if i <= n => Ok((i, n)),
         _ => Err(format!("a shard is i/N with 1 <= i <= N <= {MOST}, like 2/3")),
@@ -37,7 +36,7 @@ fn share(shard: &str) -> Result<(usize, usize), String> {
 
 pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     let Args { shard, options } = args;
-    let session = options.session(paper)?;
+    let session = options.open(paper, None)?.session;
     let saved: Vec<&'static dyn AnyExperiment> =
         paper.experiments.iter().copied().filter(|one| one.is_saved()).collect();
     let outcome = options.threads.run(|| match shard {

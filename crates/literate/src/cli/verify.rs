@@ -1,6 +1,6 @@
 //! Runs the verb `verify`: compares a report with its list, or with what the source makes.
 
-use super::common::{profile_in, refuse_outdated};
+use super::common::{Run, profile_in};
 use super::terminal::{Threads, display_path, print};
 use crate::build::make_report;
 use crate::experiments::{Progress, Store};
@@ -8,7 +8,7 @@ use crate::failure::Failure;
 use crate::input::count;
 use crate::paper::Paper;
 use crate::report::folder;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Check a report against its SHA256SUMS, and with --rerun against what this program makes
 ///
@@ -44,19 +44,24 @@ pub(super) struct Args {
 
 pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
     let Args { folder, rerun, results, templates, threads } = args;
-    let folder = folder.unwrap_or_else(|| paper.project.place("paper"));
-    let place = display_path(&folder);
-    let (files, mut faults) = folder::verify(&folder)?;
+    let out = folder.unwrap_or_else(|| paper.project.place("paper"));
+    let place = display_path(&out);
+    let open = |profile, store| -> Result<Run<'_>, Failure> {
+        let session = paper.session(templates.as_deref(), profile, store, Progress::on_stderr())?;
+        Ok(Run { paper, session, out: out.clone() })
+    };
+    let (files, mut faults) = folder::verify(&out)?;
     if faults.is_empty() {
         print(&format!("{place}: {files} files, all as {} lists them\n", folder::SUMS))?;
     }
+    let profile = profile_in(&out);
     if rerun {
         let no_profile = || Failure::input(format!("{place}: values.json names no profile"));
-        let profile = profile_in(&folder).ok_or_else(no_profile)?;
+        let profile = profile.ok_or_else(no_profile)?;
         let store = results.as_deref().map_or(Store::nowhere(), Store::open);
-        let session = paper.session(templates.as_deref(), profile, store, Progress::on_stderr())?;
-        let report = threads.run(|| make_report(paper, &session, &folder))?.0;
-        let (files, differences) = folder::compare(&folder, &report)?;
+        let run = open(profile, store)?;
+        let report = threads.run(|| make_report(paper, &run.session, &out))?.0;
+        let (files, differences) = folder::compare(&out, &report)?;
         if differences.is_empty() {
             let name = profile.name();
             let outcome = format!("made again with the {name} profile, the same bytes");
@@ -64,34 +69,20 @@ pub(super) fn run(paper: &Paper, args: Args) -> Result<(), Failure> {
         }
         faults.extend(differences.into_iter().map(|fault| format!("rerun: {fault}")));
     }
-    if faults.is_empty() {
-        if rerun {
-            return Ok(());
-        }
-        let results = results.unwrap_or_else(|| paper.project.place("target/results"));
-        return compare_with_prose(paper, &folder, &results, templates.as_deref());
+    if !faults.is_empty() {
+        print(&(faults.join("\n") + "\n"))?;
+        let number = count(faults.len(), "file");
+        return Err(Failure::check(format!(
+            "{place}: faults in {number}; with the same options `paper --force` writes it again, and \
+             `paper --force --rerun all` without saved results; move unlisted files yourself"
+        )));
     }
-    print(&(faults.join("\n") + "\n"))?;
-    let number = count(faults.len(), "file");
-    Err(Failure::check(format!(
-        "{place}: faults in {number}; with the same options `paper --force` writes it again, and \
-         `paper --force --rerun all` without saved results; move unlisted files yourself"
-    )))
-}
-
-/// Compares a report with what prose and saved results make, or says why it does not.
-fn compare_with_prose(
-    paper: &Paper,
-    folder: &Path,
-    results: &Path,
-    templates: Option<&Path>,
-) -> Result<(), Failure> {
-    let Some(profile) = profile_in(folder) else { return Ok(()) };
-    let session = paper.session(templates, profile, Store::open(results), Progress::on_stderr())?;
-    if refuse_outdated(paper, &session, folder)? {
+    // Without a run the report is compared with what prose and saved results make.
+    let Some(profile) = profile.filter(|_| !rerun) else { return Ok(()) };
+    let results = results.unwrap_or_else(|| paper.project.place("target/results"));
+    if open(profile, Store::open(&results))?.refuse_outdated()? {
         return Ok(());
     }
-    let place = display_path(folder);
     if results.is_dir() {
         let problem = "saved results are stale or missing, so prose was not compared";
         return Err(Failure::check(format!("{place}: {problem}; `paper` runs them")));

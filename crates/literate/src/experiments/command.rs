@@ -28,9 +28,8 @@ pub struct Command {
     /// Its name, with which the names of its tables begin.
     pub name: &'static str,
     /// The program and its arguments, with blanks between, and quotes as in a shell. A program is
-    /// found in `PATH` unless it has a slash; its bytes are part of what identifies a saved result.
-    /// So are arguments that are files or folders of the project, alone or behind `=`; they are
-    /// copied to where the command runs.
+    /// found in `PATH` unless it has a slash. Its bytes identify a result, as do arguments that are
+    /// files or folders of the project, alone or behind `=`; they are copied to where it runs.
     pub line: &'static str,
     /// Its parameters in a profile: an object.
     pub parameters: fn(Profile) -> Json,
@@ -61,8 +60,7 @@ impl Command {
         Command { name, line, parameters, reads: none, writes: none, env: none, versions: none }
     }
 
-    /// Returns what a command wrote to standard error when its result was saved, or `None` if there
-    /// is no such result.
+    /// Returns what a command wrote to standard error when it last ran, or `None` if it did not.
     pub(crate) fn said(name: &str, profile: Profile, store: &Store) -> Option<String> {
         Some(store.load_last::<Output>(name, profile)?.said)
     }
@@ -130,7 +128,6 @@ impl Command {
         Ok(hashes)
     }
 
-    /// Copies its inputs into a folder.
     fn copy_to(&self, folder: &Path, top: &Path) -> io::Result<()> {
         for input in self.inputs(top).map_err(io::Error::other)? {
             if top.join(&input).is_dir() {
@@ -221,7 +218,6 @@ impl Command {
     }
 }
 
-/// Makes a folder for a run among the temporary ones.
 fn folder_in(temporary: &Path) -> Result<tempfile::TempDir, String> {
     let failed = |error| format!("TMPDIR is {}: {error}; make that folder", temporary.display());
     tempfile::tempdir_in(temporary).map_err(failed)
@@ -235,7 +231,6 @@ fn words(line: &str) -> Result<Vec<String>, String> {
     }
 }
 
-/// Finds a program in the folders of `PATH`.
 fn in_path(name: &str) -> Result<PathBuf, String> {
     let is_program = |path: &PathBuf| {
         path.metadata().is_ok_and(|file| file.is_file() && file.permissions().mode() & 0o111 != 0)
@@ -281,8 +276,8 @@ impl AnyExperiment for Command {
         self.line.into()
     }
 
-    fn load_saved(&self, identity: &Identity, store: &Store) -> Result<AnyResult, String> {
-        Ok(Arc::new(store.load::<Output>(identity)?))
+    fn load_saved(&self, identity: &Identity, session: &Session<'_>) -> Result<AnyResult, String> {
+        Ok(Arc::new(session.store.load::<Output>(identity)?))
     }
 
     fn read_or_run(&self, identity: &Identity, session: &Session<'_>) -> Result<AnyResult, Error> {

@@ -56,37 +56,15 @@ impl<P, T> Experiment<P, T> {
 pub type AnyResult = Arc<dyn Any + Send + Sync>;
 
 impl<P: Json, T: Json, U: Json> Experiment<P, T, U> {
-    /// Returns its parameters, and the JSON by which a saved result is known, which reads back to
-    /// the same.
-    fn known_parameters(&self, profile: Profile) -> Result<(P, serde_json::Value), Error> {
-        let parameters = (self.parameters)(profile);
-        let fault = |problem: &str, remedy| Err(Error::input(self.name, problem, remedy));
-        let json = match serde_json::to_value(&parameters) {
-            Ok(json) => json,
-            Err(error) => {
-                let problem = format!("JSON cannot hold its parameters: {error}");
-                return fault(&problem, "use texts as keys, and numbers of 64 bits");
-            }
-        };
-        // JSON has null for a number that is not finite.
-        match P::deserialize(&json) {
-            Ok(read) if read == parameters => Ok((parameters, json)),
-            _ => fault(
-                "a parameter is NaN or infinite, or is not saved",
-                "give it a number or `None`, without `#[serde(skip)]`",
-            ),
-        }
-    }
-
     /// Returns the results of some units, in their order, and how many of them had to be run.
     fn parts(
         &self,
+        (words, cutting): (&str, &Cutting<P, U, T>),
         units: &[Unit],
-        parameters: &P,
         identity: &Identity,
         session: &Session<'_>,
     ) -> Result<(Vec<U>, usize), Error> {
-        let How::Cut(words, cutting) = &self.how else { return Ok((Vec::new(), 0)) };
+        let parameters = (self.parameters)(session.profile);
         let (store, progress, name) = (&session.store, &session.progress, self.name);
         let saved: Vec<Result<U, String>> =
             units.par_iter().map(|unit| store.load(&identity.for_unit(unit))).collect();
@@ -99,9 +77,8 @@ impl<P: Json, T: Json, U: Json> Experiment<P, T, U> {
         }
         let units_to_run: usize = reasons.values().sum();
         if units_to_run < units.len() {
-            let units_in_words = count(units.len(), "unit");
-            progress
-                .say(&format!("{name}: {} of {units_in_words} there", units.len() - units_to_run));
+            let (saved, total) = (units.len() - units_to_run, count(units.len(), "unit"));
+            progress.say(&format!("{name}: {saved} of {total} there"));
         }
         for (reason, number) in reasons.iter().filter(|(reason, _)| *reason != "run") {
             progress.say(&format!("{name}: {} {reason}", count(*number, "unit")));
@@ -111,7 +88,7 @@ impl<P: Json, T: Json, U: Json> Experiment<P, T, U> {
             if let Ok(part) = saved_part {
                 return Ok(part);
             }
-            let part = (cutting.run_unit)(parameters, unit, &stage, progress)?;
+            let part = (cutting.run_unit)(&parameters, unit, &stage, progress)?;
             store.save(&identity.for_unit(unit), &part)?;
             Ok(part)
         };
@@ -135,15 +112,9 @@ pub trait AnyExperiment: Sync {
     fn check_files(&self, project: &Project) -> Result<(), Error>;
 
     /// Returns what the result is made of besides the parameters: a hash by the name of each thing.
-    ///
-    /// # Errors
-    /// It cannot be read.
     fn made_of(&self, session: &Session<'_>) -> Result<BTreeMap<String, String>, Error>;
 
-    /// Returns its parameters as JSON.
-    ///
-    /// # Errors
-    /// JSON cannot hold them, or loses some of them.
+    /// Returns its parameters as JSON; it is an error if JSON loses some of them.
     fn parameters(&self, profile: Profile) -> Result<serde_json::Value, Error>;
 
     /// Returns the path of its module: `experiments::sweep` for `src/experiments/sweep.rs`.
@@ -165,8 +136,7 @@ pub trait AnyExperiment: Sync {
         vec![Unit::whole(0)]
     }
 
-    /// Returns those of the given units that must be run; these are none if the saved result is
-    /// fresh.
+    /// Returns those of the units that must be run: none if the saved result is fresh.
     fn units_to_run(&self, mut units: Vec<Unit>, identity: &Identity, store: &Store) -> Vec<Unit> {
         if !self.is_saved() || store.fresh(identity).is_ok() {
             return Vec::new();
@@ -185,8 +155,7 @@ pub trait AnyExperiment: Sync {
         self.read_or_run(identity, session).map(|_| units.len())
     }
 
-    /// Returns why and how much of the experiment must be run, or `None` if its saved result is
-    /// fresh.
+    /// Returns why and how much of it must be run, or `None` if its saved result is fresh.
     fn why_stale(&self, session: &Session<'_>) -> Result<Option<String>, Error> {
         let identity = self.identity(session)?;
         let Some(reason) = session.store.fresh(&identity).err().filter(|_| self.is_saved()) else {
@@ -202,8 +171,8 @@ pub trait AnyExperiment: Sync {
         Ok(Some(format!("{reason}; {saved} of {units_in_words} there")))
     }
 
-    /// Returns the saved result, or why it must be run.
-    fn load_saved(&self, identity: &Identity, store: &Store) -> Result<AnyResult, String>;
+    /// Returns the result that is saved or known without a run, or why it must be run.
+    fn load_saved(&self, identity: &Identity, session: &Session<'_>) -> Result<AnyResult, String>;
 
     /// Reads or runs the experiment, and saves the result of a run.
     fn read_or_run(&self, identity: &Identity, session: &Session<'_>) -> Result<AnyResult, Error>;
@@ -233,12 +202,9 @@ impl<P: Json, T: Json, U: Json> AnyExperiment for Experiment<P, T, U> {
 
     fn check_files(&self, project: &Project) -> Result<(), Error> {
         // Without a checkout there is no code to look for.
-        if let Some(absent) = self.own.iter().find(|path| !project.exists(path)) {
-            let problem = format!("it lists {absent}, which is not there");
-            return Err(Error::input(self.name, problem, "correct the path"));
-        }
+        let own = if project.top().is_some() { self.own } else { &[] };
         let fault = |(problem, remedy)| Error::input(self.name, problem, remedy);
-        project.check_listed(self.reads).map_err(fault)
+        project.check_listed(&[own, self.reads].concat()).map_err(fault)
     }
 
     fn made_of(&self, session: &Session<'_>) -> Result<BTreeMap<String, String>, Error> {
@@ -249,7 +215,18 @@ impl<P: Json, T: Json, U: Json> AnyExperiment for Experiment<P, T, U> {
     }
 
     fn parameters(&self, profile: Profile) -> Result<serde_json::Value, Error> {
-        Ok(self.known_parameters(profile)?.1)
+        let parameters = (self.parameters)(profile);
+        let json = serde_json::to_value(&parameters).map_err(|error| {
+            let problem = format!("JSON cannot hold its parameters: {error}");
+            Error::input(self.name, problem, "use texts as keys, and numbers of 64 bits")
+        })?;
+        // JSON has null for a number that is not finite.
+        if P::deserialize(&json).is_ok_and(|read| read == parameters) {
+            return Ok(json);
+        }
+        let problem = "a parameter is NaN or infinite, or is not saved";
+        let remedy = "give it a number or `None`, without `#[serde(skip)]`";
+        Err(Error::input(self.name, problem, remedy))
     }
 
     fn item(&self) -> String {
@@ -275,27 +252,28 @@ impl<P: Json, T: Json, U: Json> AnyExperiment for Experiment<P, T, U> {
         identity: &Identity,
         session: &Session<'_>,
     ) -> Result<usize, Error> {
-        let How::Cut(..) = self.how else {
+        let How::Cut(words, cutting) = &self.how else {
             return self.read_or_run(identity, session).map(|_| units.len());
         };
-        let (parameters, _) = self.known_parameters(session.profile)?;
-        Ok(self.parts(units, &parameters, identity, session)?.1)
+        Ok(self.parts((words, cutting), units, identity, session)?.1)
     }
 
-    fn load_saved(&self, identity: &Identity, store: &Store) -> Result<AnyResult, String> {
-        Ok(Arc::new(store.load::<T>(identity)?))
+    fn load_saved(&self, identity: &Identity, session: &Session<'_>) -> Result<AnyResult, String> {
+        if let How::Read(_) = self.how {
+            return self.read_or_run(identity, session).map_err(|error| error.to_string());
+        }
+        Ok(Arc::new(session.store.load::<T>(identity)?))
     }
 
     fn read_or_run(&self, identity: &Identity, session: &Session<'_>) -> Result<AnyResult, Error> {
-        let progress = &session.progress;
-        let (parameters, _) = self.known_parameters(session.profile)?;
+        let parameters = (self.parameters)(session.profile);
         let result = match &self.how {
             How::Read(read) => return Ok(Arc::new(read(session)?)),
-            How::Whole(run, _) => run(&parameters, progress)?,
-            How::Cut(_, cutting) => {
+            How::Whole(run, _) => run(&parameters, &session.progress)?,
+            How::Cut(words, cutting) => {
                 let units = cutting.units(&parameters);
-                let (parts, _) = self.parts(&units, &parameters, identity, session)?;
-                cutting.join_parts(&parameters, &units, parts, progress)?
+                let (parts, _) = self.parts((words, cutting), &units, identity, session)?;
+                cutting.join_parts(&parameters, &units, parts, &session.progress)?
             }
         };
         if self.identity(session)? != *identity {

@@ -2,7 +2,7 @@
 
 use crate::decimal::Decimal;
 use crate::table::{Building, Table, no_such};
-use crate::value::{Digits, Number, Origin, Written};
+use crate::value::{Digits, Number, Origin};
 use impact_numerics::estimates::with_error;
 use serde::de::{Error, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -38,10 +38,8 @@ impl<'de> Deserialize<'de> for Cell {
     fn deserialize<D: Deserializer<'de>>(reader: D) -> Result<Self, D::Error> {
         let text = Box::<RawValue>::deserialize(reader)?.get().to_string();
         let beyond = |_| format!("{text} is beyond double precision (print it in another unit)");
-        Ok(Cell {
-            json: serde_json::from_str(&text).map_err(beyond).map_err(D::Error::custom)?,
-            text,
-        })
+        let json = serde_json::from_str(&text).map_err(beyond).map_err(D::Error::custom)?;
+        Ok(Cell { json, text })
     }
 }
 
@@ -68,9 +66,8 @@ pub(super) fn tables_by_name<'de, D: Deserializer<'de>>(
             let mut tables = BTreeMap::new();
             while let Some((name, table)) = map.next_entry::<String, PrintedTable>()? {
                 if tables.insert(name.clone(), table).is_some() {
-                    return Err(A::Error::custom(format!(
-                        "two tables have the name {name} (rename one)"
-                    )));
+                    let problem = format!("two tables have the name {name} (rename one)");
+                    return Err(A::Error::custom(problem));
                 }
             }
             Ok(tables)
@@ -211,11 +208,11 @@ impl Cell {
         if Decimal::read(&self.text) == full {
             return number;
         }
-        Number::Real { value, digits: Digits::Text(Written::new(&self.text)) }
+        Number::Real { value, digits: Digits::Text(leaked(&self.text)) }
     }
 }
 
-/// Names of tables live as long as the program.
+/// Keeps names and digits of tables as long as the program runs.
 fn leaked(text: &str) -> &'static str {
-    Box::leak(text.to_string().into_boxed_str())
+    text.to_string().leak()
 }

@@ -82,8 +82,8 @@ fn guard() -> io::Result<Child> {
 
 /// Hands over each line, and returns the last of those that are to be kept.
 fn lines_of(errors: impl Read, mut hear: impl FnMut(&str) -> bool) -> String {
-    let (mut errors, mut kept_lines, mut line) =
-        (BufReader::new(errors), String::new(), Vec::new());
+    let mut errors = BufReader::new(errors);
+    let (mut kept_lines, mut line) = (String::new(), Vec::new());
     let mut next = |line: &mut Vec<u8>| errors.by_ref().take(KEPT as u64).read_until(b'\n', line);
     while next(&mut line).is_ok_and(|length| length > 0) {
         let line_text = String::from_utf8_lossy(&line);

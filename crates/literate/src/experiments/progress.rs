@@ -107,8 +107,7 @@ impl Stage {
 /// The units of a stage of which only shares are known.
 pub(super) const PARTS: u64 = 1_000_000;
 
-/// Returns the share of the work that a line reports, `progress 40 %` or `progress 40/100`, or
-/// `None` if it is another line.
+/// Returns the share that a line reports, `progress 40 %` or `progress 40/100`, or else `None`.
 pub(super) fn share_in(line: &str) -> Option<f64> {
     let words = line.strip_prefix("progress ")?.trim();
     let percent = words.strip_suffix('%').map(|done| (done, "100"));
@@ -117,8 +116,7 @@ pub(super) fn share_in(line: &str) -> Option<f64> {
     (0.0..=1.0).contains(&share).then_some(share)
 }
 
-/// Returns `40 %, about 12 s left`: 100 % only when all is done, no time below a second, and no
-/// share before a first one is known.
+/// Returns `40 %, about 12 s left`: 100 % only when all is done, and no time below a second.
 fn progress_text(done: u64, total: u64, elapsed: Duration) -> String {
     if done == 0 && total > 0 {
         return "running".into();

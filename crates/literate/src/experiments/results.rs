@@ -5,15 +5,14 @@ use super::store::{Identity, Json};
 use super::{AnyExperiment, AnyResult, Command, Error, Experiment, Fault, Profile, Session};
 use crate::input::count;
 use crate::names::{self, Names};
-use crate::table::{Missing, NO_NUMBER, Table, Tables, find_cell, find_table, table_name};
+use crate::table::{Missing, NO_NUMBER, Table, Tables, no_such, table_name};
 use crate::value::Value;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-/// Makes tables of the results and tables of several experiments, or returns `None` if one of these
-/// was not run.
+/// Makes tables of several experiments, or returns `None` if one of these was not run.
 pub type DerivedTables = fn(&Results, &[Table]) -> Option<Vec<Table>>;
 
 /// The results of experiments, and the tables that are made of them.
@@ -51,7 +50,6 @@ impl Results {
         Results { profile: *profile, results, derived, tables, read: Mutex::default() }
     }
 
-    /// Returns these results with another table in the place of the one with its name.
     pub(crate) fn with_table(&self, table: Table) -> Results {
         let mut copy = self.copy();
         if let Some(Ok(tables)) = copy.tables.get_mut() {
@@ -66,8 +64,7 @@ impl Results {
         experiment.to_json(result)
     }
 
-    /// Returns these results and their tables with another result of one experiment, or `None` if
-    /// the experiment cannot have this result.
+    /// Returns the results with another one of an experiment, or `None` if it cannot be one.
     pub(crate) fn with_json(&self, name: &str, result: serde_json::Value) -> Option<Results> {
         let mut copy = self.copy();
         let (experiment, replaced) = copy.results.iter_mut().find(|(one, _)| one.name() == name)?;
@@ -92,17 +89,14 @@ impl Results {
     pub(crate) fn tables(&self) -> Result<&Tables, Error> {
         let again = || {
             let results = self.results.iter();
-            self.joined(
-                results.flat_map(|(experiment, result)| tables(*experiment, result)).collect(),
-            )
+            self.joined(results.flat_map(|(one, result)| tables(*one, result)).collect())
         };
         self.tables.get_or_init(again).as_ref().map_err(|fault| Error(Fault::Table(fault.clone())))
     }
 
     #[cfg(test)]
     pub(crate) fn made_up(tables: Vec<Table>) -> Self {
-        let tables: Tables =
-            tables.into_iter().map(|table| (table.name(), Arc::new(table))).collect();
+        let tables = tables.into_iter().map(|table| (table.name(), Arc::new(table))).collect();
         let (results, derived) = Default::default();
         let (tables, read) = (OnceLock::from(Ok(tables)), Mutex::default());
         Results { profile: Profile::Full, results, derived, tables, read }
@@ -135,7 +129,13 @@ impl Results {
     #[track_caller]
     pub fn table(&self, name: &str) -> Result<&Table, Error> {
         self.note(name);
-        Ok(find_table(self.tables()?, name)?)
+        let tables = self.tables()?;
+        let Some(table) = tables.get(name) else {
+            let mut missing = Missing::new(name, no_such("table", name, tables.keys().copied()));
+            missing.remedy = "add its experiment to `needs`";
+            return Err(missing.into());
+        };
+        Ok(table)
     }
 
     /// Returns the bytes of a file in the `writes` of a command; it is an error if there is none.
@@ -146,11 +146,13 @@ impl Results {
         command.file(output, path).ok_or(missing)
     }
 
-    /// Returns the cell with this address: `theory.jump.p_jump`.
     #[track_caller]
     pub(crate) fn cell(&self, address: &str) -> Result<&Value, Error> {
-        self.note(table_name(address).unwrap_or(address));
-        Ok(find_cell(self.tables()?, address)?)
+        let table = self.table(table_name(address).unwrap_or(address))?;
+        match table.cell(address) {
+            Some(cell) => Ok(cell),
+            None => Err(Missing::new(address, table.describe_missing(address)).into()),
+        }
     }
 
     /// Returns the number with this address.
@@ -162,8 +164,7 @@ impl Results {
         }
     }
 
-    /// Returns the results of experiments in this order: saved results where they are fresh, and
-    /// else results of runs.
+    /// Returns the results of experiments in this order, saved ones where they are fresh.
     pub(crate) fn run(
         experiments: &[&'static dyn AnyExperiment],
         derived: &[DerivedTables],
@@ -173,10 +174,7 @@ impl Results {
         let identities: Vec<Identity> = identities.collect::<Result<_, Error>>()?;
         let identified = experiments.par_iter().zip(&identities).with_max_len(1);
         let saved = identified.map(|(experiment, identity)| {
-            let read =
-                || experiment.read_or_run(identity, session).map_err(|error| error.to_string());
-            let saved = || experiment.load_saved(identity, &session.store);
-            made(*experiment, || if experiment.is_saved() { saved() } else { read() })
+            made(*experiment, || experiment.load_saved(identity, session))
         });
         let saved: Vec<_> = saved.collect();
         let (mut stale, mut units_to_run) = (0, Vec::new());
@@ -231,6 +229,18 @@ fn made<E>(
 mod tests {
     use super::*;
     use crate::experiments::{Progress, Store};
+
+    #[test]
+    fn an_address_without_a_cell_is_an_error_with_the_nearest_names() {
+        let rise = Table::builder("test.rise", &[0.1], |_| 1).key("sigma", "1", |row| *row);
+        let results = Results::made_up(vec![rise.count("mean", "", |_| 2).done()]);
+        let message = |address| results.cell(address).unwrap_err().to_string();
+        let column = message("test.rise[sigma=0.1].meen");
+        assert!(column.contains("no column meen; nearest: mean"), "{column}");
+        let table = message("test.ris.mean");
+        assert!(table.contains("nearest: test.rise; add its experiment"), "{table}");
+        assert!(table.contains("src/experiments/results.rs:"), "{table}");
+    }
 
     #[test]
     fn a_panic_names_its_experiment() {

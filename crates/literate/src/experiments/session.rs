@@ -2,16 +2,15 @@
 
 use super::cutting::{Unit, WORK_PER_SECOND};
 use super::error::Error;
-use super::profile::Profile;
 use super::progress::Progress;
-use super::store::Store;
+use super::store::{Profile, Store};
 use crate::code::Code;
 use crate::input::count;
 use crate::project::Project;
 use crate::prose::Templates;
 
 /// What a run of the program works with.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Session<'a> {
     /// Where files are found.
     pub project: &'a Project,
@@ -21,20 +20,11 @@ pub struct Session<'a> {
     pub(crate) store: Store,
     /// Where progress is shown.
     pub progress: Progress,
-    /// What results are made of.
     pub(crate) code: Code,
 }
 
 impl Session<'_> {
-    /// Returns a session of the same that shows no progress.
-    pub(crate) fn silent(&self) -> Self {
-        let (templates, store, code) =
-            (self.templates.clone(), self.store.clone(), self.code.clone());
-        Session { progress: Progress::silent(), templates, store, code, ..*self }
-    }
-
-    /// Prints one line that says what is run and about how long it takes, if any units are to be
-    /// run.
+    /// Prints what is run and about how long it takes, if any units are to be run.
     pub(crate) fn announce(&self, subject: &str, units: &[Unit]) -> Result<(), Error> {
         if units.is_empty() {
             return Ok(());
@@ -52,20 +42,18 @@ impl Session<'_> {
     }
 }
 
-/// Returns in words how long units take, or no words if the work of all of them is unknown.
+/// Returns in words how long units take, as precise as an estimate from counted work is, or no
+/// words if the work of all of them is unknown.
 fn time(units: &[Unit], threads: u64) -> String {
     let work: u64 = units.iter().map(|unit| unit.work).sum();
+    if work == 0 {
+        return String::new();
+    }
     let or_more = if units.iter().any(|unit| unit.work == 0) { " or more" } else { "" };
-    let seconds = work / WORK_PER_SECOND / threads;
-    if work == 0 { "".into() } else { format!(", {}{or_more}", duration(seconds)) }
-}
-
-/// Returns a time in words, as precise as an estimate from counted work is.
-fn duration(seconds: u64) -> String {
-    match seconds {
-        0..10 => "a few seconds".into(),
-        10..100 => format!("about {} seconds", seconds.div_ceil(10) * 10),
-        _ => format!("about {} minutes", seconds.div_ceil(60)),
+    match work / WORK_PER_SECOND / threads {
+        0..10 => format!(", a few seconds{or_more}"),
+        seconds @ 10..100 => format!(", about {} seconds{or_more}", seconds.div_ceil(10) * 10),
+        seconds => format!(", about {} minutes{or_more}", seconds.div_ceil(60)),
     }
 }
 
@@ -85,9 +73,9 @@ mod tests {
 
     #[test]
     fn times_are_rounded_up_and_unknown_without_an_estimate() {
-        assert_eq!(duration(3), "a few seconds");
-        assert_eq!(duration(41), "about 50 seconds");
-        assert_eq!(duration(179), "about 3 minutes");
+        let of_one = |seconds: u64| time(&[Unit::whole(seconds * WORK_PER_SECOND)], 1);
+        let times = [", a few seconds", ", about 50 seconds", ", about 3 minutes"];
+        assert_eq!([3, 41, 179].map(of_one), times);
         let units = [0, 100 * WORK_PER_SECOND].map(Unit::whole);
         assert_eq!(time(&units, 2), ", about 50 seconds or more");
         assert_eq!([time(&units[..1], 2), time(&units[1..], 2)], ["", ", about 50 seconds"]);

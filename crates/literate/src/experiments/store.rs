@@ -6,12 +6,31 @@
 //! not, or if the file is damaged, the experiment is run again, and the reason is printed.
 
 use super::cutting::Unit;
-use super::{Error, Fault, Profile};
+use super::{Error, Fault};
 use crate::input::{WRITING, is_absent, one_line, read_text, sha256};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
+
+/// The sizes of samples.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
+#[serde(rename_all = "lowercase")]
+pub enum Profile {
+    /// Small samples, to try things out
+    Quick,
+    /// The committed report
+    Full,
+}
+
+impl Profile {
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Profile::Quick => "quick",
+            Profile::Full => "full",
+        }
+    }
+}
 
 pub trait Json: Serialize + DeserializeOwned + PartialEq + Send + Sync + 'static {}
 
@@ -39,14 +58,8 @@ impl Identity {
         code: BTreeMap<String, String>,
         parameters: serde_json::Value,
     ) -> Self {
-        Identity {
-            experiment: experiment.into(),
-            profile,
-            schema: SCHEMA,
-            parameters,
-            unit: None,
-            code,
-        }
+        let (experiment, unit) = (experiment.into(), None);
+        Identity { experiment, profile, schema: SCHEMA, parameters, unit, code }
     }
 
     pub fn for_unit(&self, unit: &Unit) -> Self {
@@ -111,21 +124,18 @@ impl Store {
 
     /// Returns the saved result, or why it must be run, as [`Store::fresh`] does.
     pub(crate) fn load<T: DeserializeOwned>(&self, identity: &Identity) -> Result<T, String> {
-        let saved = self.fresh(identity)?;
-        let body = saved.split('\n').nth(2).unwrap_or_default();
-        serde_json::from_str(body).map_err(|_| run_again(OLDER_FORMAT))
+        serde_json::from_str(&self.fresh(identity)?).map_err(|_| run_again(OLDER_FORMAT))
     }
 
     /// Returns the result that was saved last, whatever it was made of.
     pub(super) fn load_last<T: DeserializeOwned>(&self, name: &str, profile: Profile) -> Option<T> {
         let identity = Identity::new(name, profile, BTreeMap::new(), ().into());
         let saved = read_text(&self.path(&identity)?).ok()?;
-        parse_identity(&saved).ok()?;
-        serde_json::from_str(saved.split('\n').nth(2)?).ok()
+        serde_json::from_str(parse(&saved).ok()?.1).ok()
     }
 
-    /// Returns the text of a saved file that is whole and was made of the same, or why the result
-    /// must be run, in one line: `run`, `run again, Cargo.lock changed`.
+    /// Returns the JSON of a result that is saved whole and was made of the same, or why it must be
+    /// run, in one line: `run`, `run again, Cargo.lock changed`.
     pub(crate) fn fresh(&self, identity: &Identity) -> Result<String, String> {
         let saved = match self.path(identity).map(|path| read_text(&path)) {
             Some(Ok(saved)) => saved,
@@ -134,8 +144,9 @@ impl Store {
             }
             _ => return Err("run".into()),
         };
-        let differences = identity.differences(&parse_identity(&saved).map_err(run_again)?);
-        if differences.is_empty() { Ok(saved) } else { Err(run_again(&differences)) }
+        let (made_of, body) = parse(&saved).map_err(run_again)?;
+        let differences = identity.differences(&made_of);
+        if differences.is_empty() { Ok(body.into()) } else { Err(run_again(&differences)) }
     }
 
     /// Makes the folder, so that one which cannot be made is known before a run.
@@ -148,8 +159,9 @@ impl Store {
     pub(crate) fn save<T: Json>(&self, identity: &Identity, result: &T) -> Result<(), Error> {
         let Some(path) = self.path(identity) else { return Ok(()) };
         let [made_of, body] = [to_json(identity, identity)?, to_json(identity, result)?];
-        let file = format!("{}\n{made_of}\n{body}\n", digest(&[&made_of, &body]));
-        write_whole(&path, &file).map_err(|source| Error(Fault::Store { path, source }))
+        let lines = format!("{made_of}\n{body}\n");
+        write_whole(&path, &format!("{}\n{lines}", sha256(&lines)))
+            .map_err(|source| Error(Fault::Store { path, source }))
     }
 
     /// Removes the units of a result, and the result too if it is to be run again.
@@ -163,11 +175,10 @@ impl Store {
         let files = self.folder.iter().filter_map(|folder| folder.read_dir().ok()).flatten();
         let units = files.flatten().map(|entry| entry.path()).filter(is_unit);
         for path in units.chain(self.path(identity).filter(|_| is_to_run)) {
-            match std::fs::remove_file(&path) {
-                Err(source) if !is_absent(&source) => {
-                    return Err(Error(Fault::Store { path, source }));
-                }
-                _ => (),
+            if let Err(source) = std::fs::remove_file(&path)
+                && !is_absent(&source)
+            {
+                return Err(Error(Fault::Store { path, source }));
             }
         }
         Ok(())
@@ -178,15 +189,16 @@ fn run_again(reason: &str) -> String {
     format!("run again, {}", one_line(reason, 1000))
 }
 
-fn parse_identity(saved: &str) -> Result<Identity, &'static str> {
-    let lines: Vec<&str> = saved.split('\n').collect();
-    let [checksum, identity, body, ""] = lines[..] else {
+/// Returns what a saved result was made of, and its JSON.
+fn parse(saved: &str) -> Result<(Identity, &str), &'static str> {
+    let (checksum, lines) = saved.split_once('\n').unwrap_or_default();
+    let [identity, body, ""] = lines.split('\n').collect::<Vec<_>>()[..] else {
         return Err("the saved result is cut short or has extra lines");
     };
-    if checksum != digest(&[identity, body]) {
+    if checksum != sha256(lines) {
         return Err("the saved result was damaged or edited: its checksum is wrong");
     }
-    serde_json::from_str(identity).map_err(|_| OLDER_FORMAT)
+    serde_json::from_str(identity).map(|identity| (identity, body)).map_err(|_| OLDER_FORMAT)
 }
 
 /// Writes a result as text that reads back to the same bits. JSON has neither NaN nor infinity, and
@@ -202,27 +214,20 @@ fn write_whole(path: &Path, content: &str) -> std::io::Result<()> {
     std::fs::create_dir_all(path.parent().unwrap_or(path))?;
     let _moment = WRITING.read();
     let temporary = path.with_extension(format!("json.{}", std::process::id()));
-    let saved =
-        std::fs::write(&temporary, content).and_then(|()| std::fs::rename(&temporary, path));
+    let written = std::fs::write(&temporary, content);
+    let saved = written.and_then(|()| std::fs::rename(&temporary, path));
     saved.inspect_err(|_| drop(std::fs::remove_file(&temporary)))
-}
-
-fn digest(lines: &[&str]) -> String {
-    sha256(lines.iter().flat_map(|line| [*line, "\n"]).collect::<String>())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use impact_numerics::random::{NormalPairs, Seed};
 
     #[test]
     fn results_come_back_to_the_bit_and_what_is_not_finite_is_not_saved() {
         let folder = tempfile::tempdir().unwrap();
-        let mut normals = impact_numerics::random::NormalPairs::new(
-            "test-store",
-            impact_numerics::random::Seed(1),
-            0,
-        );
+        let mut normals = NormalPairs::new("test-store", Seed(1), 0);
         let mut result: Vec<_> = (0..500).flat_map(|_| normals.pair()).map(Some).collect();
         result.extend([None, Some(-0.0), Some(f64::MIN_POSITIVE / 4.0), Some(f64::MAX)]);
         let store = Store::open(folder.path());

@@ -54,9 +54,8 @@ pub fn number(value: f64, decimals: usize) -> String {
 }
 
 impl Axis {
-    /// Makes a linear axis with labelled ticks every `step` and `minor` intervals between two of
-    /// them. Labels are exact, for a step of up to twelve digits: in decimals, or with a power of
-    /// ten. Where they would be long they count from one of the ticks, as the axis label then says.
+    /// Makes a linear axis with a labelled tick every `step` of up to twelve digits, and `minor`
+    /// intervals between two. Labels are exact; long ones count from a tick, as the label says.
     pub fn linear(lo: f64, hi: f64, step: f64, minor: u32, label: &str) -> Self {
         let minor = i64::from(minor.max(1));
         let fine = step / minor as f64;
@@ -300,8 +299,7 @@ pub fn power_of_ten(exponent: i32) -> String {
     format!("10^{{{}}}", exponent.to_string().replace('-', "−"))
 }
 
-/// Formats a number with about `digits` significant digits, for notes and descriptions; a tiny one
-/// as a multiple of a power of ten.
+/// Formats a number with about `digits` significant digits; a tiny one with a power of ten.
 pub fn short(value: f64, digits: usize) -> String {
     if value != 0.0 && value.abs() < 1e-3 {
         let shown = format!("{:.*e}", digits.saturating_sub(1), value);

@@ -18,7 +18,7 @@ use super::error::{Error, Fault};
 use super::font::{self, Placed};
 use super::markup;
 use super::path::{Point, Step, circle, inside, polygon, polyline};
-use super::style::{PALETTE, Stroke, WIDTH, is_rimmed};
+use super::style::{PALETTE, Stroke, WIDTH};
 use plotters::style::text_anchor::{HPos, VPos};
 use plotters::style::{FontTransform, RGBColor};
 use plotters_backend::{
@@ -95,10 +95,11 @@ pub(super) type Outcome = Result<(), DrawingErrorKind<Error>>;
 /// Returns a colour, which must be one of ours: others have no form for light and for dark pages.
 fn in_palette(colour: BackendColor) -> Result<RGBColor, Error> {
     let (r, g, b) = colour.rgb;
-    let known = PALETTE.iter().any(|(_, known)| *known == RGBColor(r, g, b));
-    let missing =
-        || Error(Fault::Drawing(format!("#{r:02x}{g:02x}{b:02x} is no colour of the prelude")));
-    known.then_some(RGBColor(r, g, b)).ok_or_else(missing)
+    if PALETTE.iter().any(|(_, known)| *known == RGBColor(r, g, b)) {
+        return Ok(RGBColor(r, g, b));
+    }
+    let problem = format!("#{r:02x}{g:02x}{b:02x} is no colour of the prelude");
+    Err(Error(Fault::Drawing(problem)))
 }
 
 impl Drawing {
@@ -150,8 +151,7 @@ impl DrawingBackend for Drawing {
         self.draw_rect((x, y), (x + 1, y + 1), &colour, true)
     }
 
-    /// Draws a straight line from its upper end. It continues the stroke before it if both look
-    /// alike, so that thousands of ticks are one path.
+    /// Draws a line from its upper end, as part of the stroke before it if both look alike.
     fn draw_line<S: BackendStyle>(&mut self, a: Point, b: Point, style: &S) -> Outcome {
         let (from, to) = if a.1 <= b.1 { (a, b) } else { (b, a) };
         self.path(polyline([from, to]), style, false)?;
@@ -253,7 +253,7 @@ impl DrawingBackend for Drawing {
             size: style.size() as i32,
             colour,
             upwards,
-            rim: is_rimmed(style),
+            rim: style.family().as_str() == "rimmed",
             glyphs,
         }));
         Ok(())

@@ -64,8 +64,7 @@ pub fn line<C: Clone + 'static>(points: Vec<C>, stroke: Stroke) -> DynElement<'s
     CustomElement::new(points, dashed).into_dyn()
 }
 
-/// Makes ticks at points, `width` wide and as high as the stroke is thick; those in one row that
-/// touch are one stroke.
+/// Makes ticks as high as the stroke is thick; those in one row that touch are one stroke.
 pub fn ticks<C>(points: Vec<C>, width: i32, stroke: Stroke) -> CustomElement<C> {
     CustomElement::new(points, move |drawing, mut points| {
         points.sort_unstable_by_key(|&(x, y)| (y, x));
@@ -78,16 +77,12 @@ pub fn ticks<C>(points: Vec<C>, width: i32, stroke: Stroke) -> CustomElement<C> 
     })
 }
 
-/// Length of an arrow head and half its width, in hundredths of a millimetre, and how much a unit
-/// of the width of its line adds to each.
-const HEAD: [f64; 2] = [90.0, 34.0];
-const HEAD_GROWTH: [f64; 2] = [2.6, 1.1];
-
 /// Makes a solid line that ends in an arrow head, inside it. A short last stretch must not turn the
 /// head, so its direction is taken over at least its length.
 pub fn arrow<C>(points: Vec<C>, stroke: Stroke) -> CustomElement<C> {
     let width = f64::from(stroke.width);
-    let [length, half] = [0, 1].map(|i| HEAD[i] + HEAD_GROWTH[i] * width);
+    // Of the head, with half its width; a thick line has a larger one.
+    let (length, half) = (90.0 + 2.6 * width, 34.0 + 1.1 * width);
     CustomElement::new(points, move |drawing, mut path| {
         let Some(&tip) = path.last() else { return Ok(()) };
         let to_tip = |p: &Point| {

@@ -26,9 +26,8 @@ pub struct Figure {
 }
 
 impl Figure {
-    /// Makes a figure of a picture that is not drawn here, from the bytes of its file. A png or jpg
-    /// serves all formats; an svg needs a pdf or png for LaTeX besides, and a pdf one of the others
-    /// for pages.
+    /// Makes a figure of the bytes of a picture. A png or jpg serves all formats; an svg needs a
+    /// pdf or png for LaTeX besides, and a pdf one of the others for pages.
     pub fn picture(files: &[&[u8]], title: &str, description: Description) -> Result<Self, Error> {
         let mut figure = Figure { title: title.into(), description, ..Figure::default() };
         for bytes in files {

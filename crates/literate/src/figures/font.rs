@@ -99,12 +99,10 @@ pub fn set(label: &str, size: i32) -> Result<(Vec<Placed>, i32), Error> {
     Ok((glyphs, width))
 }
 
-/// Returns the width of a label whose em is `size`.
 pub fn width(label: &str, size: i32) -> Result<i32, Error> {
     Ok(set(label, size)?.1 * size / EM)
 }
 
-/// Returns the name of a glyph inside a drawing.
 pub fn id(placed: &Placed) -> String {
     let face = if placed.face == Face::Italic { 'i' } else { 'r' };
     format!("{face}{}", placed.glyph)

@@ -47,8 +47,7 @@ impl Sheet {
         Ok(panel)
     }
 
-    /// Adds a panel without its axes. The area of the panel is as large as the sheet, so that
-    /// plotters moves no point onto the frame.
+    /// Adds a panel without its axes. Its area is the whole sheet, so that plotters moves no point.
     pub fn bare_panel(&self, frame: Frame, x: Axis, y: Axis) -> Result<Panel, Error> {
         x.check()?;
         y.check()?;
@@ -130,8 +129,7 @@ pub(super) fn widest_number(axis: &Axis) -> Result<i32, Error> {
     axis.ticks.iter().try_fold(0, wider)
 }
 
-/// Moves heights apart, so that any two differ by so much, and all are in a range; returns `None`
-/// if it is too short for them.
+/// Moves heights apart by at least so much, within a range, or returns `None` if it is too short.
 fn spread(heights: &[i32], least: i32, (top, bottom): (i32, i32)) -> Option<Vec<i32>> {
     let mut order: Vec<usize> = (0..heights.len()).collect();
     order.sort_by_key(|&i| heights[i]);
@@ -244,16 +242,9 @@ impl Panel {
     /// millimetres to the right and down: `(1, 0)` is right of the point, `(0, -1)` above it.
     pub fn label(&self, text: &str, at: (f64, f64), offset: (i32, i32), colour: RGBColor) -> Drawn {
         let (right, down) = offset;
-        let h = match right {
-            ..0 => HPos::Right,
-            0 => HPos::Center,
-            1.. => HPos::Left,
-        };
-        let v = match down {
-            ..0 => VPos::Bottom,
-            0 => VPos::Center,
-            1.. => VPos::Top,
-        };
+        let place = |offset: i32| (1 + offset.signum()) as usize;
+        let h = [HPos::Right, HPos::Center, HPos::Left][place(right)];
+        let v = [VPos::Bottom, VPos::Center, VPos::Top][place(down)];
         self.text(text, at, (100 * right, 100 * down), rimmed(SMALL, colour, h, v))
     }
 

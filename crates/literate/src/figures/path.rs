@@ -12,14 +12,12 @@ pub enum Step {
     Close,
 }
 
-/// Returns the straight lines from point to point.
 pub fn polyline(points: impl IntoIterator<Item = Point>) -> Vec<Step> {
     let mut points = points.into_iter();
     let first = points.next().map(Step::Move);
     first.into_iter().chain(points.map(Step::Line)).collect()
 }
 
-/// Returns the straight lines from point to point and back to the first.
 pub fn polygon(points: impl IntoIterator<Item = Point>) -> Vec<Step> {
     let mut path = polyline(points);
     path.push(Step::Close);
@@ -43,8 +41,8 @@ pub fn circle((x, y): Point, r: i32) -> Vec<Step> {
     path
 }
 
-/// Returns the parameters between which the stretch from `a` to `b` lies in the rectangle of these
-/// ends (Liang and Barsky 1984), or `None` if it does not.
+/// Returns between which parameters the stretch from `a` to `b` lies in a rectangle, or `None` if
+/// it does not (Liang and Barsky 1984).
 pub fn inside(a: (f64, f64), b: (f64, f64), x: (f64, f64), y: (f64, f64)) -> Option<(f64, f64)> {
     let (dx, dy) = (b.0 - a.0, b.1 - a.1);
     let (mut start, mut end) = (0.0_f64, 1.0_f64);

@@ -50,7 +50,6 @@ impl Drawing {
     }
 }
 
-/// Returns red, green and blue as parts of one.
 fn shares(RGBColor(r, g, b): RGBColor) -> [f32; 3] {
     [r, g, b].map(|part| f32::from(part) / 255.0)
 }

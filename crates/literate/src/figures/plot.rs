@@ -93,34 +93,37 @@ impl Plot {
         self
     }
 
-    fn add(mut self, name: &str, points: Vec<(f64, Estimate)>, symbol: Option<Symbol>) -> Self {
-        let (function, breaks) = (None, Vec::new());
-        self.series.push(Series { name: name.into(), points, symbol, function, breaks });
+    fn add(
+        mut self,
+        name: &str,
+        points: Vec<(f64, Estimate)>,
+        symbol: Option<Symbol>,
+        function: Option<Function>,
+    ) -> Self {
+        let (name, breaks) = (name.into(), Vec::new());
+        self.series.push(Series { name, points, symbol, function, breaks });
         self
     }
 
     /// Adds a line through points (x, y).
     pub fn line(self, name: &str, points: &[(f64, f64)]) -> Self {
-        self.add(name, without_errors(points), None)
+        self.add(name, without_errors(points), None, None)
     }
 
     /// Adds symbols at points (x, y).
     pub fn points(self, name: &str, points: &[(f64, f64)], symbol: Symbol) -> Self {
-        self.add(name, without_errors(points), Some(symbol))
+        self.add(name, without_errors(points), Some(symbol), None)
     }
 
     /// Adds discs at estimates with bars of one standard error, as a table gives them.
     pub fn estimates(self, name: &str, estimates: &[(f64, Estimate)]) -> Self {
-        self.add(name, estimates.to_vec(), Some(Symbol::Disc))
+        self.add(name, estimates.to_vec(), Some(Symbol::Disc), None)
     }
 
     /// Adds a function of x across the plot; the range of y follows from other data, if any. The
     /// line is broken where the function is not finite, and at a pole.
-    pub fn curve(mut self, name: &str, function: impl Fn(f64) -> f64 + 'static) -> Self {
-        let function: Option<Function> = Some(Box::new(function));
-        let (points, breaks) = (Vec::new(), Vec::new());
-        self.series.push(Series { name: name.into(), points, symbol: None, function, breaks });
-        self
+    pub fn curve(self, name: &str, function: impl Fn(f64) -> f64 + 'static) -> Self {
+        self.add(name, Vec::new(), None, Some(Box::new(function)))
     }
 
     fn has_place(&self, (x, y): (f64, f64)) -> bool {
@@ -150,9 +153,9 @@ impl Plot {
                     let between = function(place(i - 0.5));
                     let is_within = before.min(y) <= between && between <= before.max(y);
                     let is_pole = before * y < 0.0 && !is_within;
-                    series
-                        .breaks
-                        .extend((is_pole || !y.is_finite()).then_some(series.points.len()));
+                    if is_pole || !y.is_finite() {
+                        series.breaks.push(series.points.len());
+                    }
                     if y.is_finite() {
                         series.points.push((at, with_error(y, 0.0)));
                     }
@@ -236,9 +239,8 @@ fn without_errors(points: &[(f64, f64)]) -> Vec<(f64, Estimate)> {
 }
 
 impl AxisOptions {
-    /// Makes the axis of the range that was asked for, or the one that holds these values: whole
-    /// decades, or a margin of a twenty-fifth. A linear one has up to six numbers, a logarithmic
-    /// one of less than two decades labels 1, 2 and 5.
+    /// Makes the axis of the range that was asked for, or of whole decades or a margin around the
+    /// values. It has up to six numbers, or 1, 2 and 5 of less than two decades.
     fn axis(&self, values: impl Iterator<Item = f64>) -> Axis {
         let found = axis::range(values.filter(|value| value.is_finite()));
         let [low, high] = self.range.or(found).unwrap_or([0.1, 1.0]);
@@ -275,9 +277,9 @@ mod tests {
     fn axis(is_log: bool, values: &[f64]) -> (Axis, String) {
         let options = AxisOptions { label: "*x* (s)".into(), is_log, range: None };
         let axis = options.axis(values.iter().copied());
-        let labels: Vec<&str> =
-            axis.ticks.iter().filter_map(|tick| tick.label.as_deref()).collect();
-        (axis.clone(), labels.join(" "))
+        let labels = axis.ticks.iter().filter_map(|tick| tick.label.as_deref());
+        let labels = labels.collect::<Vec<_>>().join(" ");
+        (axis, labels)
     }
 
     #[test]

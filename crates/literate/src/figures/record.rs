@@ -21,7 +21,6 @@ impl From<(f64, f64)> for DataPoint {
 }
 
 impl From<(f64, f64, f64)> for DataPoint {
-    /// A bar between two heights.
     fn from((x, low, high): (f64, f64, f64)) -> Self {
         DataPoint { x, known: [None, None, Some(low), Some(high)] }
     }
@@ -57,8 +56,7 @@ pub(super) struct Record {
 }
 
 impl Record {
-    /// Adds rows to a series: bars, symbols and curves of one name are one set of rows, by rising
-    /// x.
+    /// Adds rows to a series: bars, symbols and curves of one name are one set, by rising x.
     pub(super) fn add(&mut self, name: &str, rows: impl IntoIterator<Item = DataPoint>) {
         let name = spelled(name);
         let Some((_, known)) = self.series.iter_mut().find(|series| series.0 == name) else {

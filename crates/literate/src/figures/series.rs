@@ -54,13 +54,11 @@ impl Panel {
         }
     }
 
-    /// Returns whether the axes have a place for a point.
     fn has_place(&self, (x, y): (f64, f64)) -> bool {
         self.x.position(x).is_finite() && self.y.position(y).is_finite()
     }
 
-    /// Records points and returns those that can be drawn. Of those to be cut, the ones that the
-    /// axes have no place for are left out of both.
+    /// Records points that the axes have a place for, and returns where they are drawn.
     fn places(&self, name: &str, points: Points) -> Result<Vec<(f64, f64)>, Error> {
         let (mut shown, mut places) = (Vec::new(), Vec::new());
         for (i, &(x, y)) in points.iter().enumerate() {

@@ -7,7 +7,6 @@
 
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, FontDesc, RGBColor, ShapeStyle, TextStyle};
-use plotters_backend::BackendTextStyle;
 
 /// Width of every figure: one column.
 pub const WIDTH: u32 = 8400;
@@ -55,7 +54,6 @@ const SHADES: [RGBColor; 4] = [
 /// The page.
 pub(crate) const WHITE: RGBColor = RGBColor(0xff, 0xff, 0xff);
 
-/// All colours by the names that style sheets use.
 pub(super) const PALETTE: [(&str, RGBColor); 13] = [
     ("ink", INK),
     ("grey", GREY),
@@ -151,13 +149,8 @@ pub fn words(size: i32, colour: RGBColor, h: HPos, v: VPos) -> TextStyle<'static
     FontDesc::from(("plain", size)).color(&colour).pos(Pos::new(h, v))
 }
 
-/// Makes the style of words that may stand on something: a rim of the page's colour sets them off.
-/// A style of plotters cannot say so. The name of its font does, which chooses no font here.
+/// Makes the style of words with a rim of the page's colour, which sets them off. A style of
+/// plotters cannot say so; the name of its font does, which chooses no font here.
 pub(crate) fn rimmed(size: i32, colour: RGBColor, h: HPos, v: VPos) -> TextStyle<'static> {
     FontDesc::from(("rimmed", size)).color(&colour).pos(Pos::new(h, v))
-}
-
-/// Returns whether a style is one of [`rimmed`].
-pub(super) fn is_rimmed(style: &impl BackendTextStyle) -> bool {
-    style.family().as_str() == "rimmed"
 }

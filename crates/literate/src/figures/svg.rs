@@ -13,7 +13,6 @@ use std::fmt::Write as _;
 /// Screen pixels per hundred grid units, at the natural size of a drawing.
 pub(super) const PIXELS_PER_HUNDRED: u32 = 8;
 
-/// Escapes text for an element or an attribute.
 pub fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
@@ -43,7 +42,6 @@ fn path_data(steps: &[Step]) -> String {
     d
 }
 
-/// Writes the outlines of glyphs, for use by their names.
 pub fn outlines(glyphs: &Glyphs) -> String {
     let mut out = String::new();
     for (id, steps) in glyphs {
@@ -81,7 +79,6 @@ fn shape(path: &[Step], fill: &Fill, stroke: &Option<Stroke>) -> String {
     format!("<path class=\"{}\"{more} d=\"{}\"/>", classes.join(" "), path_data(path))
 }
 
-/// Writes words as glyphs.
 fn label(label: &Label, on_page: bool) -> String {
     let scale = f64::from(label.size) / f64::from(font::EM);
     let (ink, (x, y)) = (class("fill", label.colour), label.at);
@@ -117,8 +114,7 @@ fn label(label: &Label, on_page: bool) -> String {
 }
 
 impl Drawing {
-    /// Writes an element of a page, which holds the rules of colours and the outlines of glyphs, or
-    /// a file. `id` must be unique on a page that shows several drawings.
+    /// Writes a file, or an element of a page, which holds the colours and outlines of glyphs.
     pub(crate) fn svg(&self, on_page: bool, id: &str, title: &str, description: &str) -> String {
         let (mut namespace, mut head) = ("", String::new());
         if !on_page {

@@ -7,6 +7,9 @@ use std::collections::BTreeSet;
 use std::panic::Location;
 use std::rc::Rc;
 
+/// A name or unit of a column.
+type Name = &'static str;
+
 /// A table that is being made, of rows R.
 pub struct Building<'a, R> {
     rows: &'a [R],
@@ -20,7 +23,7 @@ impl Table {
     /// Begins a table `experiment.what` with one row for each of `rows`, of `number` realisations.
     #[track_caller]
     pub fn builder<'a, R>(
-        name: &'static str,
+        name: Name,
         rows: &'a [R],
         number: impl Fn(&R) -> usize + 'a,
     ) -> Building<'a, R> {
@@ -31,19 +34,11 @@ impl Table {
     }
 }
 
-fn markdown(unit: &str) -> String {
-    match unit {
-        "1" | "text" => String::new(),
-        unit => format!("${}$", unit.replace("omega", r"\omega ").replace(" ^", "^").trim_end()),
-    }
-}
-
 impl<'a, R> Building<'a, R> {
-    /// Adds a column, whose cells are made by `cell` of what the author's code, `get`, returns for
-    /// each row.
+    /// Adds a column, whose cells `cell` makes of what the author's code, `get`, returns.
     fn put<T, F: Fn(&R) -> T>(
         mut self,
-        (name, unit): (&'static str, &'static str),
+        (name, unit): (Name, Name),
         meaning: &str,
         item: Option<Origin>,
         get: F,
@@ -51,11 +46,15 @@ impl<'a, R> Building<'a, R> {
     ) -> Self {
         let item = item.unwrap_or_else(origin_of::<F>);
         let experiment = self.table.name.split('.').next().unwrap_or_default();
+        let markdown = match unit {
+            "1" | "text" => String::new(),
+            _ => format!("${}$", unit.replace("omega", r"\omega ").replace(" ^", "^").trim_end()),
+        };
         self.table.columns.push(Column { name, unit });
         for (row, (_, cells)) in self.rows.iter().zip(&mut self.table.rows) {
             let (number, kind) = cell(row, get(row));
             let value = Value::new("", number, kind).source(item.clone());
-            let (unit, note, experiment) = (markdown(unit), meaning.into(), experiment.into());
+            let (unit, note, experiment) = (markdown.clone(), meaning.into(), experiment.into());
             cells.push(Value { unit, note, experiment, ..value });
         }
         self
@@ -67,8 +66,7 @@ impl<'a, R> Building<'a, R> {
         self
     }
 
-    /// Sets the item that computed the table's estimates, reals and counts, but those that
-    /// [`Building::computed_by`] names.
+    /// Sets what computed its estimates, reals and counts, but for [`Building::computed_by`].
     pub fn table_computed_by(mut self, item: Origin) -> Self {
         if !self.table.columns.is_empty() {
             self.fault("table_computed_by stands after columns; put it first".into());
@@ -78,25 +76,32 @@ impl<'a, R> Building<'a, R> {
     }
 
     /// Sets the item that computed the columns of these names, which stand before it.
-    pub fn computed_by(mut self, item: Origin, names: &[&str]) -> Self {
-        self.change(names, |cell| cell.source.clone_from(&item.0));
-        self
+    pub fn computed_by(self, item: Origin, names: &[&str]) -> Self {
+        self.change(names, |cell| cell.source.clone_from(&item.0))
     }
 
     /// Marks the columns of these names, which stand before it, as measured.
-    pub fn measured(mut self, names: &[&str]) -> Self {
-        self.change(names, |cell| cell.kind = Provenance::Measured);
-        self
+    pub fn measured(self, names: &[&str]) -> Self {
+        self.change(names, |cell| cell.kind = Provenance::Measured)
     }
 
-    fn change(&mut self, names: &[&str], change: impl Fn(&mut Value)) {
+    /// Marks all columns so far as measured, which makes them an input of the paper.
+    pub fn all_measured(self) -> Self {
+        let names: Vec<Name> = self.table.names().collect();
+        self.measured(&names)
+    }
+
+    fn change(mut self, names: &[&str], change: impl Fn(&mut Value)) -> Self {
         for name in names {
-            let Some(place) = self.table.names().position(|column| column == *name) else {
+            let place = self.table.names().position(|column| column == *name);
+            if place.is_none() {
                 self.fault(format!("no column before it has the name {name}"));
-                continue;
-            };
-            self.table.rows.iter_mut().for_each(|(_, cells)| change(&mut cells[place]));
+            }
+            for (_, cells) in &mut self.table.rows {
+                place.into_iter().for_each(|place| change(&mut cells[place]));
+            }
         }
+        self
     }
 
     fn count_key(&mut self, name: &str) {
@@ -113,18 +118,13 @@ impl<'a, R> Building<'a, R> {
     }
 
     /// Adds a key: a parameter by which rows are found.
-    pub fn key<K: Into<Number>, F: Fn(&R) -> K>(
-        mut self,
-        name: &'static str,
-        unit: &'static str,
-        get: F,
-    ) -> Self {
+    pub fn key<K: Into<Number>, F: Fn(&R) -> K>(mut self, name: Name, unit: Name, get: F) -> Self {
         self.count_key(name);
         self.chosen(name, unit, "", get)
     }
 
     /// Adds a key of words.
-    pub fn text_key<F: Fn(&R) -> String>(mut self, name: &'static str, get: F) -> Self {
+    pub fn text_key<F: Fn(&R) -> String>(mut self, name: Name, get: F) -> Self {
         self.count_key(name);
         self.words(name, "", get)
     }
@@ -132,8 +132,8 @@ impl<'a, R> Building<'a, R> {
     /// Adds an estimate with its standard error; a cell has no number where `get` returns `None`.
     pub fn estimate<E: Into<Sampled>, F: Fn(&R) -> Option<E>>(
         self,
-        name: &'static str,
-        unit: &'static str,
+        name: Name,
+        unit: Name,
         meaning: &str,
         get: F,
     ) -> Self {
@@ -151,8 +151,8 @@ impl<'a, R> Building<'a, R> {
     /// has no number where `get` returns `None`.
     pub fn real<V: Into<Option<f64>>, F: Fn(&R) -> V>(
         self,
-        name: &'static str,
-        unit: &'static str,
+        name: Name,
+        unit: Name,
         digits: usize,
         meaning: &str,
         get: F,
@@ -165,28 +165,15 @@ impl<'a, R> Building<'a, R> {
     }
 
     /// Adds a column of words.
-    pub fn words<W: Into<Number>, F: Fn(&R) -> W>(
-        self,
-        name: &'static str,
-        meaning: &str,
-        get: F,
-    ) -> Self {
+    pub fn words<W: Into<Number>, F: Fn(&R) -> W>(self, name: Name, meaning: &str, get: F) -> Self {
         self.put((name, "text"), meaning, None, get, |_, words| (words.into(), Provenance::Exact))
-    }
-
-    /// Marks all cells so far as measured, which makes them an input of the paper.
-    pub fn all_measured(mut self) -> Self {
-        for cell in self.table.rows.iter_mut().flat_map(|(_, cells)| cells) {
-            cell.kind = Provenance::Measured;
-        }
-        self
     }
 
     /// Adds a parameter that was chosen, with all its digits; a cell may have no number.
     pub fn chosen<K: Into<Number>, F: Fn(&R) -> K>(
         self,
-        name: &'static str,
-        unit: &'static str,
+        name: Name,
+        unit: Name,
         meaning: &str,
         get: F,
     ) -> Self {
@@ -194,7 +181,7 @@ impl<'a, R> Building<'a, R> {
     }
 
     /// Adds a count, shown as an integer up to a million and with its leading digits beyond.
-    pub fn count<F: Fn(&R) -> u64>(self, name: &'static str, meaning: &str, get: F) -> Self {
+    pub fn count<F: Fn(&R) -> u64>(self, name: Name, meaning: &str, get: F) -> Self {
         let item = self.origin.clone();
         self.put((name, "1"), meaning, item, get, |_, n| match n {
             ..1_000_000 => (n.into(), Provenance::Exact),
@@ -202,8 +189,7 @@ impl<'a, R> Building<'a, R> {
         })
     }
 
-    /// Names the rows by their keys. Two columns or rows of one name, and numbers that are not
-    /// finite, are errors when the table is first asked for.
+    /// Names the rows by their keys. What is wrong with it is an error when the table is asked for.
     pub fn done(mut self) -> Table {
         let columns = self.table.columns.clone();
         for (index, column) in columns.iter().enumerate() {
@@ -215,21 +201,18 @@ impl<'a, R> Building<'a, R> {
         let (mut seen, mut faults) = (BTreeSet::new(), Vec::new());
         for (row, cells) in &mut self.table.rows {
             let keyed = columns.iter().zip(&*cells).take(keys);
-            let keyed: Vec<String> = keyed
-                .map(|(key, cell)| format!("{}={}", key.name, key_to_text(&cell.number)))
-                .collect();
-            *row = keyed.join(",");
+            let keyed = keyed.map(|(key, cell)| format!("{}={}", key.name, key_to_text(cell)));
+            *row = keyed.collect::<Vec<_>>().join(",");
             if !seen.insert(row.clone()) {
                 faults.push(format!("two rows have the keys [{row}]; add a key that differs"));
             }
             let brackets = if row.is_empty() { String::new() } else { format!("[{row}]") };
             for (column, cell) in columns.iter().zip(cells) {
-                let address = format!("{name}{brackets}.{}", column.name);
+                cell.id = format!("{name}{brackets}.{}", column.name);
                 if !cell.number.is_finite() {
                     let remedy = "correct it, or return None where there is no number";
-                    faults.push(format!("{address} is {}; {remedy}", cell.to_plain_text()));
+                    faults.push(format!("{} is {}; {remedy}", cell.id, cell.to_plain_text()));
                 }
-                cell.id = address;
             }
         }
         faults.into_iter().for_each(|fault| self.fault(fault));

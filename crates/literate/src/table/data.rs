@@ -1,12 +1,11 @@
 //! Writes data files: whole tables and the points of figures as CSV.
 
 use super::rows::{Column, Table};
-use crate::value::{Digits, Number, Provenance, Written};
+use crate::value::{Digits, Number, Provenance};
 use std::borrow::Cow;
 
 impl DataFile {
-    /// Makes the file of a table: names of columns with units, and cells with every bit of each
-    /// number, and a further column for each standard error.
+    /// Makes the file of a table, with every bit of each number, and a column for each error.
     pub(crate) fn from_table(table: &Table) -> Self {
         let (mut header, mut rows) = (Vec::new(), vec![Vec::new(); table.rows.len()]);
         for (index, Column { name, unit }) in table.columns.iter().enumerate() {
@@ -31,15 +30,11 @@ impl DataFile {
 
     /// Writes the file: comma separated, one line a row, each ended by a line feed.
     pub fn to_csv(&self) -> String {
-        let mut csv = String::new();
-        for line in std::iter::once(&self.header).chain(&self.rows) {
-            for (index, cell) in line.iter().enumerate() {
-                csv.push_str(if index > 0 { "," } else { "" });
-                csv.push_str(&quoted(cell));
-            }
-            csv.push('\n');
-        }
-        csv
+        let line = |cells: &Vec<String>| {
+            let cells: Vec<Cow<'_, str>> = cells.iter().map(|cell| quoted(cell)).collect();
+            cells.join(",") + "\n"
+        };
+        [&self.header].into_iter().chain(&self.rows).map(line).collect()
     }
 }
 
@@ -47,7 +42,7 @@ fn to_cell(number: &Number) -> String {
     match number {
         Number::None => String::new(),
         Number::Integer(n) => n.to_string(),
-        Number::Real { digits: Digits::Text(Written(text)), .. } => text.to_string(),
+        Number::Real { digits: Digits::Text(text), .. } => text.to_string(),
         Number::Real { value, .. } => format!("{value:?}"),
         Number::Text(words) => words.clone(),
     }
@@ -65,7 +60,7 @@ pub struct DataFile {
 }
 
 fn quoted(cell: &str) -> Cow<'_, str> {
-    if cell.as_bytes().iter().any(|byte| matches!(byte, b',' | b'"' | b'\n')) {
+    if cell.contains([',', '"', '\n']) {
         format!("\"{}\"", cell.replace('"', "\"\"")).into()
     } else {
         cell.into()

@@ -10,7 +10,7 @@ use std::panic::Location;
 pub struct Missing {
     address: String,
     what: String,
-    pub(super) remedy: &'static str,
+    pub(crate) remedy: &'static str,
     place: String,
 }
 

@@ -10,13 +10,12 @@
 
 mod building;
 mod data;
-mod find;
 mod missing;
 mod rows;
 
 pub use building::Building;
 pub use data::{DataFile, shortest};
-pub(crate) use find::{Tables, find_cell, find_table, table_name};
 pub use missing::Missing;
 pub(crate) use missing::{NO_NUMBER, nearest, no_such};
 pub use rows::{Keys, Table};
+pub(crate) use rows::{Tables, table_name};

@@ -3,10 +3,11 @@
 use super::missing::{Missing, NO_NUMBER, no_such};
 use crate::decimal::Decimal;
 use crate::input::source_line;
-use crate::value::{Digits, Number, Value, Written};
+use crate::value::{Digits, Number, Value};
 use impact_numerics::statistics::Estimate;
 use std::collections::BTreeMap;
 use std::panic::Location;
+use std::sync::Arc;
 
 /// Rows that keys name, and columns.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,13 +22,14 @@ pub struct Table {
     pub(crate) fault: Option<String>,
 }
 
-/// What all cells below one another are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Column {
     pub(super) name: &'static str,
     /// As data files write it: `d omega^2`, and `1` for a pure number.
     pub(super) unit: &'static str,
 }
+
+pub type Tables = BTreeMap<&'static str, Arc<Table>>;
 
 /// Names of keys and their values, which choose rows.
 pub type Keys<'a> = &'a [(&'a str, f64)];
@@ -54,7 +56,7 @@ impl Table {
     }
 
     /// Describes which part of an address does not exist, with the most similar names that do.
-    pub(super) fn describe_missing(&self, address: &str) -> String {
+    pub(crate) fn describe_missing(&self, address: &str) -> String {
         let rest = address.strip_prefix(self.name).unwrap_or(address);
         let (row, column) = rest.rsplit_once('.').unwrap_or(("", rest));
         let row = row.trim_start_matches('[').trim_end_matches(']');
@@ -73,10 +75,9 @@ impl Table {
         }
     }
 
-    /// Returns the rows that have these values of keys, in order; keys that are left out may have
-    /// any value.
+    /// Returns the rows that have these values of keys, whatever those that are left out are.
     #[track_caller]
-    fn select(&self, keys: Keys<'_>) -> Result<Vec<&[Value]>, Missing> {
+    fn select(&self, keys: Keys) -> Result<Vec<&[Value]>, Missing> {
         let mut rows: Vec<&[Value]> = self.rows.iter().map(|(_, cells)| &cells[..]).collect();
         for (name, wanted) in keys {
             let index = self.column(name)?;
@@ -91,7 +92,7 @@ impl Table {
 
     /// Returns the number in the row with these keys.
     #[track_caller]
-    pub fn number(&self, keys: Keys<'_>, column: &str) -> Result<f64, Missing> {
+    pub fn number(&self, keys: Keys, column: &str) -> Result<f64, Missing> {
         let (rows, index) = (self.select(keys)?, self.column(column)?);
         let [row] = rows[..] else {
             let problem = format!("{} rows have these keys; give more of them", rows.len());
@@ -103,23 +104,16 @@ impl Table {
         }
     }
 
-    /// Returns the points (x, y) of two columns, in the order of the rows, without rows that lack
-    /// one of the numbers.
+    /// Returns the points (x, y) of two columns, without rows that lack one of the numbers.
     #[track_caller]
-    pub fn curve(&self, keys: Keys<'_>, x: &str, y: &str) -> Result<Vec<(f64, f64)>, Missing> {
+    pub fn curve(&self, keys: Keys, x: &str, y: &str) -> Result<Vec<(f64, f64)>, Missing> {
         let series = self.series(keys, x, y)?;
         Ok(series.into_iter().map(|(x, estimate)| (x, estimate.value)).collect())
     }
 
-    /// Returns the points of [`Table::curve`] with their standard errors, which are zero where a
-    /// number has no error.
+    /// Returns the points of [`Table::curve`] with their standard errors, zero where there is none.
     #[track_caller]
-    pub fn series(
-        &self,
-        keys: Keys<'_>,
-        x: &str,
-        y: &str,
-    ) -> Result<Vec<(f64, Estimate)>, Missing> {
+    pub fn series(&self, keys: Keys, x: &str, y: &str) -> Result<Vec<(f64, Estimate)>, Missing> {
         let (x, y) = (self.column(x)?, self.column(y)?);
         let rows = self.select(keys)?.into_iter();
         Ok(rows.filter_map(|cells| cells[x].as_f64().zip(cells[y].estimate())).collect())
@@ -132,12 +126,11 @@ impl Table {
         Ok(without_repeats(self.rows.iter().filter_map(|(_, cells)| cells[index].as_f64())))
     }
 
-    /// Returns the values of a key as addresses write them, without repetitions, in the order of
-    /// the rows.
+    /// Returns the values of a key as addresses write them, without repetitions, in their order.
     pub(crate) fn key_values(&self, key: &str) -> Vec<String> {
         let index = self.keys().position(|name| name == key);
         let cells = self.rows.iter().filter_map(|(_, cells)| cells.get(index?));
-        without_repeats(cells.map(|cell| key_to_text(&cell.number)))
+        without_repeats(cells.map(key_to_text))
     }
 
     pub(crate) fn cells(&self) -> impl Iterator<Item = &Value> {
@@ -157,9 +150,7 @@ impl Table {
             let Some(value) = cell.as_f64() else { continue };
             cell.number = match (change(value, cell.standard_error()), &cell.number) {
                 (None, _) => Number::None,
-                (Some(value), Number::Real { digits, .. }) => {
-                    Number::Real { value, digits: *digits }
-                }
+                (Some(value), &Number::Real { digits, .. }) => Number::Real { value, digits },
                 (Some(value), _) => Number::Integer(value as i128),
             };
         }
@@ -170,8 +161,7 @@ impl Table {
         self.columns.iter().map(|column| column.name)
     }
 
-    /// Returns the table with one of these experiments as the origin of its cells: the one that it
-    /// is named after, or the only one.
+    /// Returns the table as made by the experiment that it is named after, or by the only one.
     pub(crate) fn made_by(mut self, experiments: &[&str]) -> Table {
         let named = experiments.iter().any(|name| self.name.split('.').next() == Some(name));
         let only = if let [only] = experiments { only } else { "" };
@@ -189,15 +179,14 @@ impl Table {
     }
 
     /// Returns the rows, as cells by the names of columns, by every name that a template can give
-    /// to a row: `key=value` for each key, where `first` and `last` stand for the first and the
-    /// last value. A row without keys has the empty name.
+    /// to a row: `key=value` for each key, with `first` and `last`. Without keys the name is empty.
     pub(crate) fn rows_by_name(&self) -> BTreeMap<String, BTreeMap<&'static str, &Value>> {
         let mut rows = BTreeMap::new();
         let keys: Vec<_> = self.keys().map(|key| (key, self.key_values(key))).collect();
         for (_, cells) in &self.rows {
             let mut names = vec![String::new()];
             for ((key, values), cell) in keys.iter().zip(cells) {
-                let value = key_to_text(&cell.number);
+                let value = key_to_text(cell);
                 let ends =
                     [("first", values.first()), ("last", values.last()), (&value, Some(&value))];
                 let shorter = std::mem::take(&mut names);
@@ -215,6 +204,16 @@ impl Table {
     }
 }
 
+/// Returns the table, `experiment.table`, in the address of a cell, or `None` if it is none.
+pub fn table_name(address: &str) -> Option<&str> {
+    match address.split_once('[') {
+        Some((table, rest)) => rest.contains("].").then_some(table),
+        None => {
+            address.rsplit_once('.').map(|(table, _)| table).filter(|table| table.contains('.'))
+        }
+    }
+}
+
 fn without_repeats<T: PartialEq>(items: impl Iterator<Item = T>) -> Vec<T> {
     let mut distinct = Vec::new();
     for item in items {
@@ -225,11 +224,11 @@ fn without_repeats<T: PartialEq>(items: impl Iterator<Item = T>) -> Vec<T> {
     distinct
 }
 
-pub(super) fn key_to_text(key: &Number) -> String {
-    match key {
+pub(super) fn key_to_text(key: &Value) -> String {
+    match &key.number {
         Number::None => "none".into(),
         Number::Integer(n) => n.to_string(),
-        Number::Real { value, digits: Digits::Text(Written(text)) }
+        Number::Real { value, digits: Digits::Text(text) }
             if Decimal::read(text).trimmed() != Decimal::shortest(*value).trimmed() =>
         {
             text.to_string()
@@ -240,7 +239,6 @@ pub(super) fn key_to_text(key: &Number) -> String {
     }
 }
 
-/// Returns whether a cell has exactly this number.
 fn is_number(cell: &Value, wanted: f64) -> bool {
     match cell.number {
         Number::Integer(n) => n as f64 == wanted && wanted as i128 == n,
@@ -250,11 +248,10 @@ fn is_number(cell: &Value, wanted: f64) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{DataFile, Tables, find_cell, table_name};
+    use super::super::DataFile;
     use super::*;
     use crate::sample::Sample;
     use crate::value::{Origin, Provenance};
-    use std::sync::Arc;
 
     fn mean(row: &(f64, f64, Vec<f64>)) -> Option<Estimate> {
         let value = row.2.iter().sum::<f64>() / row.2.len() as f64;
@@ -297,9 +294,9 @@ mod tests {
 
     #[test]
     fn a_column_without_an_origin_has_that_of_its_table() {
-        let table =
-            Table::builder("test.x", &[2.0], |_| 1).table_computed_by(Origin("table".into()));
-        let table = table.real("x", "1", 1, "", |x| *x).computed_by(Origin("x".into()), &["x"]);
+        let [of_table, of_x] = ["table", "x"].map(|item| Origin(item.into()));
+        let table = Table::builder("test.x", &[2.0], |_| 1).table_computed_by(of_table);
+        let table = table.real("x", "1", 1, "", |x| *x).computed_by(of_x, &["x"]);
         let table = table.real("y", "1", 1, "", |x| -x).done();
         assert!(table.cells().map(|cell| cell.source.as_str()).eq(["x", "table"]));
     }
@@ -316,17 +313,10 @@ mod tests {
     fn what_is_not_there_is_an_error_with_the_place_that_asks_and_the_nearest_names() {
         let table = table();
         let keys = [("r", 0.8), ("sigma", 0.30000000000000004)];
-        let missing_row = table.number(&keys, "mean").unwrap_err();
-        assert!(
-            missing_row.to_string().contains("in crates/literate/src/table/rows.rs:"),
-            "{missing_row}"
-        );
+        let missing_row = table.number(&keys, "mean").unwrap_err().to_string();
+        assert!(missing_row.contains("in crates/literate/src/table/rows.rs:"), "{missing_row}");
         let nearest = "row r=0.8,sigma=0.30000000000000004; nearest: r=0.8,sigma=0.3, r=0.8,";
-        assert!(missing_row.to_string().contains(nearest), "{missing_row}");
-        let tables = Tables::from([(table.name(), Arc::new(table.clone()))]);
-        let message = |address| find_cell(&tables, address).unwrap_err().to_string();
-        assert!(message("test.rise[r=0,sigma=0.1].meen").contains("no column meen; nearest: mean"));
-        assert!(message("test.ris.mean").contains("nearest: test.rise; add its experiment"));
+        assert!(missing_row.contains(nearest), "{missing_row}");
         // Nothing is drawn of a column, a key or a row that is not there.
         let column = table.series(&[], "sigma", "meen").unwrap_err();
         assert!(column.to_string().contains("test.rise: there is no column meen; nearest: mean"));
@@ -380,6 +370,6 @@ mod tests {
         assert_eq!(odd.to_plain_text(), "9007199254740993");
         assert_eq!(DataFile::from_table(&table).rows[2], ["18446744073709551615"; 2]);
         let even = table.select(&[("seed", 9_007_199_254_740_992.0)]).unwrap();
-        assert_eq!((even.len(), key_to_text(&even[0][0].number)), (1, "9007199254740992".into()));
+        assert_eq!((even.len(), key_to_text(&even[0][0])), (1, "9007199254740992".into()));
     }
 }
