@@ -61,10 +61,8 @@ impl<'a> Input<'a> {
 /// once: first what Tera says, then what can be read and resolved, then what can be written.
 pub fn assemble(input: &Input<'_>) -> Result<Files, Error> {
     let (mut values, mut filler, filled) = fill(input)?;
-    let used: BTreeSet<String> =
-        filled.iter().flat_map(|filled| mark::values(&filled.text)).map(|(id, ..)| id).collect();
-    values.keep_cells(used.iter().map(String::as_str));
-    values.shorten(&input.project.sources);
+    let shown = filled.iter().flat_map(|filled| mark::values(&filled.text));
+    values.list(shown.map(|(id, ..)| id), &input.project.sources);
 
     let of_parts = Input { values: &values, ..*input };
     let read_parts = || parts(&of_parts, &filled);

@@ -144,7 +144,14 @@ impl<'a> Places<'a> {
     pub fn locate(&self, error: Error) -> Error {
         let offset = match &error {
             Error::Named { thing, name, .. } => self.offset(*thing, name),
-            Error::NoLatex(c) => self.filled.text.find(*c).or_else(|| self.value_with(*c)),
+            Error::NoLatex(c) => {
+                // Or the first value whose words have it.
+                let has =
+                    |id: &str| self.values.get(id).is_some_and(|v| v.to_plain_text().contains(*c));
+                let mut values = mark::values(&self.filled.text);
+                let value = || values.find_map(|(id, _, at)| has(&id).then_some(at.start));
+                self.filled.text.find(*c).or_else(value)
+            }
             _ => None,
         };
         match offset {
@@ -154,13 +161,6 @@ impl<'a> Places<'a> {
             }
             None => error,
         }
-    }
-
-    /// Returns where the first value stands whose words have a character.
-    fn value_with(&self, c: char) -> Option<usize> {
-        let words = |id: &str| Some(self.values.get(id)?.to_plain_text());
-        let mut values = mark::values(&self.filled.text);
-        values.find_map(|(id, _, at)| words(&id)?.contains(c).then_some(at.start))
     }
 
     fn offset(&self, thing: Thing, name: &str) -> Option<usize> {

@@ -115,16 +115,14 @@ fn ends_literal(c: char) -> bool {
     c.is_whitespace() || c == '|' || c == OPEN
 }
 
-/// Returns the digit of a sign `\3`: the number that it begins is meant literally.
-fn literal_digit(sign: &str) -> Option<&str> {
-    sign.strip_prefix('\\').filter(|digit| digit.starts_with(|c: char| c.is_ascii_digit()))
-}
-
+/// Takes away the backslash of a sign `\3`: the number that it begins is meant literally.
 pub fn without_backslashes(text: &str) -> String {
     if !text.contains('\\') {
         return text.into();
     }
-    tex::signs(text).map(|sign| literal_digit(sign).unwrap_or(sign)).collect()
+    let is_digit = |sign: &&str| sign.starts_with(|c: char| c.is_ascii_digit());
+    let literal = |sign| str::strip_prefix(sign, '\\').filter(is_digit).unwrap_or(sign);
+    tex::signs(text).map(literal).collect()
 }
 
 /// Returns whether a number behind a backslash belongs to an address, `doi:`, is a year, or is a
@@ -157,11 +155,6 @@ fn unit(text: &str) -> Option<String> {
     UNITS.split_whitespace().any(|unit| unit == first).then_some(unit)
 }
 
-/// Returns whether a point behind this character ends a sentence or a name, and begins no number.
-fn is_word_end(c: char) -> bool {
-    !c.is_whitespace() && !"([".contains(c)
-}
-
 /// Describes what stands beside a value and changes its unit or sign, or returns `None` if nothing.
 pub fn conflict(
     before: &str,
@@ -190,8 +183,10 @@ pub fn conflict(
     let typed = unit(rest).filter(|_| touches || maths || rest.len() < after.len());
     let glued = ["", ".", ",", "e"].iter().filter_map(|sign| after.strip_prefix(sign));
     let digit = |c: char| c.is_ascii_digit();
+    // A point behind a word ends a sentence or a name, and begins no number.
+    let ends_word = |c: char| !c.is_whitespace() && !"([".contains(c);
     let is_after =
-        |text: &str| if maths { text.ends_with(digit) } else { !text.ends_with(is_word_end) };
+        |text: &str| if maths { text.ends_with(digit) } else { !text.ends_with(ends_word) };
     let after_point = inside.strip_suffix('.').is_some_and(is_after);
     let is_number = !matches!(value.number, Number::Text(_));
     let goes_on = |rest: &str| !maths && rest.starts_with(OPEN);

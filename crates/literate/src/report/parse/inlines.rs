@@ -383,18 +383,15 @@ fn leftover(source: &str, start: usize, text: &str) -> Option<(usize, &'static s
 
 /// Finds the first citation or reference without brackets, `@rice1945`, in a part of the text.
 fn find_citation(source: &str, part: Range<usize>) -> Option<Range<usize>> {
-    for (offset, _) in source[part.clone()].match_indices('@') {
-        let offset = part.start + offset;
-        let before = source[..offset].chars().next_back();
-        let rest = &source[offset + 1..part.end];
-        let ends = |c: char| c.is_whitespace() || ",;{}[]|".contains(c) || mark::is_of_mark(c);
-        let id = rest.split(ends).next().unwrap_or_default();
+    let ends = |c: char| c.is_whitespace() || ",;{}[]|".contains(c) || mark::is_of_mark(c);
+    let citation = |(offset, _): (usize, &str)| {
+        let (before, rest) = source[..part.end].split_at(part.start + offset);
+        let begins = |c: char| c.is_whitespace() || "(“‘–—".contains(c);
+        let id = rest[1..].split(ends).next().unwrap_or_default();
         let id = id.trim_end_matches(|c: char| ".:?!()'\"’”".contains(c));
-        if before.is_none_or(|c| c.is_whitespace() || "(“‘–—".contains(c))
-            && id.starts_with(char::is_alphanumeric)
-        {
-            return Some(offset..offset + 1 + id.len());
-        }
-    }
-    None
+        let is_key = id.starts_with(char::is_alphanumeric);
+        let begins = before.is_empty() || before.ends_with(begins);
+        (begins && is_key).then(|| before.len()..before.len() + 1 + id.len())
+    };
+    source[part.clone()].match_indices('@').find_map(citation)
 }

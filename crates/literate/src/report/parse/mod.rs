@@ -12,7 +12,6 @@ use super::document::{Block, Inline, Table, to_plain_text};
 use super::edition::Document;
 use super::error::{Error, Thing, fault};
 use super::filled::{Filled, Places};
-use super::labels::check_kind;
 use super::latex;
 use crate::input::one_line;
 use pulldown_cmark::{
@@ -108,9 +107,16 @@ impl<'a> Reader<'a> {
         self.errors.push(error.with_place(self.filled.place(offset)));
     }
 
+    /// Keeps where an id stands; refuses one that does not begin with the kind of what it names.
     fn add_id(&mut self, kind: &str, id: &str, offset: usize) -> Result<(), Error> {
         self.places.add(Thing::Id, id, offset);
-        check_kind(kind, id)
+        let is_plain = |c: char| c.is_ascii_alphanumeric() || ":-_.".contains(c);
+        let name = id.strip_prefix(kind).and_then(|name| name.strip_prefix(':'));
+        if name.is_some_and(|name| !name.is_empty() && name.chars().all(is_plain)) {
+            return Ok(());
+        }
+        let problem = "followed by letters, digits or any of : - _ .";
+        Err(fault(format!("the id {id:?} is not valid: write {kind}: {problem}")))
     }
 
     /// Reads blocks up to the end of what contains them. After an error reading goes on with the
