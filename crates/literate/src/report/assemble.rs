@@ -6,14 +6,13 @@ use super::claims::{scorecard, to_row};
 use super::document::{self, Block, Inline};
 use super::edition::{Document, Edition};
 use super::error::{Error, Thing};
-use super::filled::Filled;
+use super::filled::{Filled, Part};
 use super::filler::Filler;
 use super::folder::{self, Files, SUMS, is_generated};
 use super::labels::Labels;
 use super::ledger::{EquationEntry, FigureEntry, Ledger};
 use super::lint::Declared;
 use super::mark;
-use super::parse::Part;
 use super::values::ValueRegistry;
 use super::{coded, html, latex, ledger, markdown, parse, search, tex};
 use crate::claims::Check;
@@ -143,11 +142,12 @@ fn parts<'a>(
         Inline::Code(item) if item.contains("::") => link_to_line(&item, input.project),
         other => other,
     };
-    for Part { document, blocks, places, errors: own } in &mut parts {
-        errors.append(own);
-        document::rewrite(blocks, &mut |inline| document::relative_link(linked(inline), input.top));
-        let numbered = labels.number_all(blocks, *document).into_iter();
-        errors.extend(numbered.map(|error| places.locate(error)));
+    let relative = &mut |inline| document::relative_link(linked(inline), input.top);
+    for part in &mut parts {
+        errors.append(&mut part.errors);
+        document::rewrite(&mut part.blocks, relative);
+        let numbered = labels.number_all(&mut part.blocks, part.document).into_iter();
+        errors.extend(numbered.map(|error| part.locate(error)));
     }
     let ledger = ledger_of(input, &parts, &labels);
     // What a block with an error shows or names is not known.
@@ -167,11 +167,11 @@ fn parts<'a>(
     errors.extend(labels.add_keys(library.keys()));
     // What stands in a block with an error has an id without a number.
     for part in parts.iter().filter(|_| is_broken) {
-        labels.add_missing(&part.places, part.document);
+        labels.add_missing(part);
     }
-    for Part { document, blocks, places, .. } in &mut parts {
-        let unresolved = labels.resolve(blocks, *document, &library).into_iter();
-        errors.extend(unresolved.map(|error| places.locate(error)));
+    for part in &mut parts {
+        let unresolved = labels.resolve(&mut part.blocks, part.document, &library).into_iter();
+        errors.extend(unresolved.map(|error| part.locate(error)));
     }
     all_in_order(errors)?;
     library.warnings().for_each(|line| (input.warn)(&line));
@@ -211,11 +211,12 @@ fn write_documents(
     };
     let written: Vec<_> = parts.par_iter().with_max_len(1).map(write).collect();
     let (mut opened, mut texts) = (BTreeSet::new(), Vec::new());
-    for (Part { document, places, .. }, written) in parts.iter().zip(written) {
+    for (part, written) in parts.iter().zip(written) {
+        let document = part.document;
         let (print, (page, values, faults), mut markdown, passages) = written;
         let unknown = tex::unknown(&print.to_string()).into_iter().map(Error::NoLatex);
-        errors.extend(unknown.chain(faults).map(|error| places.locate(error)));
-        let byline = edition.byline(*document);
+        errors.extend(unknown.chain(faults).map(|error| part.locate(error)));
+        let byline = edition.byline(document);
         if !byline.is_empty() {
             let byline = format!("\n\n*{}*\n\n", markdown::escape_text(&byline));
             markdown = markdown.replacen("\n\n", &byline, 1);
@@ -309,5 +310,5 @@ fn check_links(part: &Part<'_>, labels: &Labels, files: &Files, input: &Input<'_
             format!("a link to {to}: there is no such file or place; correct or remove it");
         Error::unknown(Thing::Link, to, &problem, committed()).with_place(place)
     };
-    part.places.named(Thing::Link).filter(|(to, _)| !is_good(to)).map(error).collect()
+    part.named(Thing::Link).filter(|(to, _)| !is_good(to)).map(error).collect()
 }

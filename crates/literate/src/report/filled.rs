@@ -1,6 +1,8 @@
 //! Keeps where each piece of the filled prose stands in the templates, and tells what people typed
 //! or calculated in their tags from what was computed.
 
+use super::document::Block;
+use super::edition::Document;
 use super::error::{Error, Thing};
 use super::lint::{Declared, find_numbers};
 use super::mark::{self, Piece, framed, pieces};
@@ -117,23 +119,19 @@ fn is_typed(expression: &str, typed: &BTreeSet<String>) -> bool {
     !name.starts_with(char::is_alphabetic) || typed.contains(name) || has_numbers
 }
 
-/// The offsets of the things that errors can name.
-#[derive(Clone, Debug)]
-pub struct Places<'a> {
-    filled: &'a Filled,
-    values: &'a ValueRegistry,
-    offsets: Vec<(Thing, String, usize)>,
+/// A document as it is read.
+pub struct Part<'a> {
+    pub document: Document,
+    /// The tree, without the blocks that have an error.
+    pub blocks: Vec<Block>,
+    pub errors: Vec<Error>,
+    pub filled: &'a Filled,
+    pub values: &'a ValueRegistry,
+    /// Where the things stand that errors can name.
+    pub offsets: Vec<(Thing, String, usize)>,
 }
 
-impl<'a> Places<'a> {
-    pub fn new(filled: &'a Filled, values: &'a ValueRegistry) -> Self {
-        Places { filled, values, offsets: Vec::new() }
-    }
-
-    pub fn add(&mut self, thing: Thing, name: &str, offset: usize) {
-        self.offsets.push((thing, name.into(), offset));
-    }
-
+impl Part<'_> {
     /// Returns the names and the places of all things of one kind.
     pub fn named(&self, kind: Thing) -> impl Iterator<Item = (&str, Place)> {
         let of_kind = self.offsets.iter().filter(move |(thing, ..)| *thing == kind);
@@ -143,7 +141,10 @@ impl<'a> Places<'a> {
     /// Adds to an error the place of what it names; of two things with one id this is the second.
     pub fn locate(&self, error: Error) -> Error {
         let offset = match &error {
-            Error::Named { thing, name, .. } => self.offset(*thing, name),
+            Error::Named { thing, name, .. } => {
+                let mut offsets = self.offsets.iter().rev();
+                offsets.find(|(kind, of, _)| kind == thing && of == name).map(|(.., at)| *at)
+            }
             Error::NoLatex(c) => {
                 // Or the first value whose words have it.
                 let has =
@@ -161,10 +162,5 @@ impl<'a> Places<'a> {
             }
             None => error,
         }
-    }
-
-    fn offset(&self, thing: Thing, name: &str) -> Option<usize> {
-        let mut offsets = self.offsets.iter().rev();
-        offsets.find(|(kind, of, _)| *kind == thing && of == name).map(|(.., offset)| *offset)
     }
 }

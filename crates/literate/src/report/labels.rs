@@ -6,7 +6,7 @@ use super::document::{
 };
 use super::edition::Document;
 use super::error::{Error, Thing};
-use super::filled::Places;
+use super::filled::Part;
 use crate::claims::Check;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -61,9 +61,9 @@ impl Labels {
     }
 
     /// Adds labels to ids without a label, so that a reference to them is no error.
-    pub fn add_missing(&mut self, places: &Places<'_>, document: Document) {
-        for (id, _) in places.named(Thing::Id) {
-            let label = Label { number: "?".into(), document };
+    pub fn add_missing(&mut self, part: &Part<'_>) {
+        for (id, _) in part.named(Thing::Id) {
+            let label = Label { number: "?".into(), document: part.document };
             self.labels.entry(id.to_string()).or_insert(label);
         }
     }

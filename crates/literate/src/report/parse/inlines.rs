@@ -147,7 +147,7 @@ impl Reader<'_> {
             Tag::Strong => Inline::Strong(words),
             Tag::Link { dest_url, .. } => {
                 let to = self.to_plain_text(&dest_url)?;
-                self.places.add(Thing::Link, &to, range.start);
+                self.offsets.push((Thing::Link, to.clone(), range.start));
                 Inline::Link { to, words }
             }
             Tag::Image { .. } => return Err(fault(FIGURE_NOT_ALONE)),
@@ -179,7 +179,7 @@ impl Reader<'_> {
             return Err(fault(format!("[{reference}]: {problem}")));
         };
         for id in ids.iter().chain([&ids.join("; ")]) {
-            self.places.add(Thing::Reference, id, offset);
+            self.offsets.push((Thing::Reference, id.clone(), offset));
         }
         Ok(Inline::Unresolved { ids, in_sentence: false })
     }
@@ -206,7 +206,7 @@ impl Reader<'_> {
             self.read_text(before, part.start..cut.start, inlines)?;
             if cut != id_at {
                 let id = source[cut.start + 1..cut.end].to_string();
-                self.places.add(Thing::Reference, &id, cut.start);
+                self.offsets.push((Thing::Reference, id.clone(), cut.start));
                 inlines.push(Inline::Unresolved { ids: vec![id], in_sentence: true });
             }
             return self.read_text(after, cut.end..part.end, inlines);
@@ -267,7 +267,7 @@ impl Reader<'_> {
             return Err(Error::formula(tex, &problem));
         }
         let formula = bracketed(formula.0);
-        self.places.add(Thing::Formula, &formula.to_tex(), offset);
+        self.offsets.push((Thing::Formula, formula.to_tex(), offset));
         Ok(formula)
     }
 
