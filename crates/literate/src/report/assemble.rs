@@ -214,8 +214,9 @@ fn write_documents(
     for (part, written) in parts.iter().zip(written) {
         let document = part.document;
         let (print, (page, values, faults), mut markdown, passages) = written;
-        let unknown = tex::unknown(&print.to_string()).into_iter().map(Error::NoLatex);
-        errors.extend(unknown.chain(faults).map(|error| part.locate(error)));
+        let unknown = tex::unknown(&print.to_string()).into_iter();
+        errors.extend(unknown.map(|c| Error::no_latex(c).with_place(part.place_of(c))));
+        errors.extend(faults.into_iter().map(|error| part.locate(error)));
         let byline = edition.byline(document);
         if !byline.is_empty() {
             let byline = format!("\n\n*{}*\n\n", markdown::escape_text(&byline));

@@ -140,27 +140,22 @@ impl Part<'_> {
 
     /// Adds to an error the place of what it names; of two things with one id this is the second.
     pub fn locate(&self, error: Error) -> Error {
-        let offset = match &error {
-            Error::Named { thing, name, .. } => {
-                let mut offsets = self.offsets.iter().rev();
-                offsets.find(|(kind, of, _)| kind == thing && of == name).map(|(.., at)| *at)
-            }
-            Error::NoLatex(c) => {
-                // Or the first value whose words have it.
-                let has =
-                    |id: &str| self.values.get(id).is_some_and(|v| v.to_plain_text().contains(*c));
-                let mut values = mark::values(&self.filled.text);
-                let value = || values.find_map(|(id, _, at)| has(&id).then_some(at.start));
-                self.filled.text.find(*c).or_else(value)
-            }
-            _ => None,
-        };
-        match offset {
-            Some(offset) => error.with_place(self.filled.place(offset)),
-            None if matches!(error, Error::NoLatex(_)) => {
-                error.with_place("the authors, or the code of a listing".to_string())
-            }
+        let Error::Named { thing, name, .. } = &error else { return error };
+        let mut offsets = self.offsets.iter().rev();
+        match offsets.find(|(kind, of, _)| kind == thing && of == name) {
+            Some((.., offset)) => error.with_place(self.filled.place(*offset)),
             None => error,
+        }
+    }
+
+    /// Returns where a character stands first, in the prose or in the words of a value.
+    pub fn place_of(&self, c: char) -> Place {
+        let has = |id: &str| self.values.get(id).is_some_and(|v| v.to_plain_text().contains(c));
+        let mut values = mark::values(&self.filled.text);
+        let in_value = || values.find_map(|(id, _, at)| has(&id).then_some(at.start));
+        match self.filled.text.find(c).or_else(in_value) {
+            Some(offset) => self.filled.place(offset),
+            None => "the authors, or the code of a listing".to_string().into(),
         }
     }
 }

@@ -47,7 +47,7 @@ pub fn parse<'a>(filled: &'a Filled, document: Document, input: &Input<'a>) -> P
     }
     let is_hidden = |(_, c): &(usize, char)| c.is_control() && !['\n', '\t'].contains(c);
     if let Some((offset, c)) = filled.text.char_indices().find(is_hidden) {
-        reader.note_error(offset, Error::NoLatex(c));
+        reader.note_error(offset, Error::no_latex(c));
     }
     let Reader { offsets, errors, .. } = reader;
     Part { document, blocks, errors, filled, values: input.values, offsets }
