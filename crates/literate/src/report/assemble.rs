@@ -204,10 +204,11 @@ fn write_documents(
     errors: &mut Vec<Error>,
 ) -> Result<BTreeSet<String>, Error> {
     let edition = input.edition;
-    let write = |Part { document, blocks, .. }: &Part<'_>| {
+    let write = |part: &Part<'_>| {
+        let Part { document, blocks, .. } = part;
         let print = latex::write(blocks, *document, edition);
         let passages = search::passages(blocks, document.name);
-        (print, html::write(blocks, *document, input), markdown::write(blocks), passages)
+        (print, html::write(part, input), markdown::write(blocks), passages)
     };
     let written: Vec<_> = parts.par_iter().with_max_len(1).map(write).collect();
     let (mut opened, mut texts) = (BTreeSet::new(), Vec::new());

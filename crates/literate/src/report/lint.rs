@@ -156,17 +156,11 @@ fn unit(text: &str) -> Option<String> {
 }
 
 /// Describes what stands beside a value and changes its unit or sign, or returns `None` if nothing.
-pub fn conflict(
-    before: &str,
-    after: &str,
-    value: &Value,
-    style: Style,
-    maths: bool,
-) -> Option<String> {
+pub fn conflict(beside: [&str; 2], value: &Value, style: Style, maths: bool) -> Option<String> {
     let tex = [r"\,", r"\;", r"\ ", "~", " ", "\u{a0}", "\u{202f}"];
     // Emphasis, links and formulas do not part a sign from its value.
     let marks = |c: char| "*_[".contains(c) && !maths;
-    let (before, after) = (before.trim_end_matches(marks), after.trim_start_matches(marks));
+    let (before, after) = (beside[0].trim_end_matches(marks), beside[1].trim_start_matches(marks));
     let link = after.strip_prefix("](").and_then(|link| Some(link.split_once(')')?.1));
     let after = link.unwrap_or(after);
     let (inside, before) = (before, before.strip_suffix('$').unwrap_or(before));
@@ -324,16 +318,16 @@ mod tests {
                 let sentence = sentence.replace('·', "\u{a0}").replace('⏎', "\n");
                 let (before, after) = sentence.split_once('V').unwrap();
                 let value = Value { unit: unit.trim().into(), ..Value::real("x", 0.5, 1) };
-                let problem = conflict(before, after, &value, Style::default(), false);
+                let problem = conflict([before, after], &value, Style::default(), false);
                 assert_eq!(problem.is_some(), wrong, "{sentence}: {problem:?}");
             }
         }
         let value = Value { unit: "ms".into(), ..Value::real("x", 0.5, 1) };
         let percent = Style { in_percent: true, ..Style::default() };
-        let problem = conflict("", "", &value, percent, false).unwrap();
+        let problem = conflict([""; 2], &value, percent, false).unwrap();
         assert!(problem.contains("which `percent` would change"), "{problem}");
         let of_maths =
-            |before, after| conflict(before, after, &value, Style::default(), true).is_some();
+            |before, after| conflict([before, after], &value, Style::default(), true).is_some();
         assert!(of_maths("-$", "$") && of_maths("$0.", "$") && of_maths("$", ".5$"));
         let maths = |after| of_maths("$-", after);
         assert_eq!(

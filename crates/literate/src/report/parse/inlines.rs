@@ -105,7 +105,7 @@ impl Reader<'_> {
                 let problem = "has a standard error, which `significant` drops; leave it out";
                 Some(format!("«{id}» {problem}"))
             } else {
-                lint::conflict(before, after, value, style, is_maths)
+                lint::conflict([before, after], value, style, is_maths)
             };
             if let Some(problem) = problem {
                 self.note_error(before.len(), Error::Message(problem));
