@@ -175,12 +175,11 @@ fn reference(entry: &Entry, own: &Entry) -> Result<Reference, String> {
         let link = Inline::Link { to: to.clone(), words: vec![Inline::Text(to)] };
         rest.extend(enclosed(" ", vec![link], ""));
     }
-    // `Itor, E. (Ed.).`
-    let editors = || {
-        let kind = if people.len() > 1 { "Eds." } else { "Ed." };
-        field("editor").map(|_| format!("{} ({kind}).", list_authors(people)))
-    };
-    let listed = if authors.is_empty() { editors()? } else { list_authors(people) };
+    let mut listed = list_authors(people);
+    if authors.is_empty() {
+        field("editor")?;
+        listed += if people.len() > 1 { " (Eds.)." } else { " (Ed.)." };
+    }
     bibtex::refuse_left_out(own, &read_fields.borrow())?;
     let [year, date] = [field("year")?, field("date")?].map(|inlines| to_plain_text(&inlines));
     let reference = Reference {
@@ -196,13 +195,8 @@ fn reference(entry: &Entry, own: &Entry) -> Result<Reference, String> {
 }
 
 fn enclosed(before: &str, inner: Vec<Inline>, after: &str) -> Vec<Inline> {
-    if inner.is_empty() {
-        return inner;
-    }
-    let mut inlines = vec![Inline::Text(before.into())];
-    inlines.extend(inner);
-    inlines.push(Inline::Text(after.into()));
-    inlines
+    let text = |words: &str| vec![Inline::Text(words.into())];
+    if inner.is_empty() { inner } else { [text(before), inner, text(after)].concat() }
 }
 
 /// Reads a field, which may be absent; macros other than accents are refused.

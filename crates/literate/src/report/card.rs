@@ -149,12 +149,9 @@ impl Cards<'_> {
                 card.add_words("realisations", &realisations.to_string());
             }
         }
-        if let Provenance::Printed { place } = &value.kind {
-            card.add_words("place", place);
-        }
         // Before its parameters, which may be many.
         match (&value.kind, &*value.experiment) {
-            (Provenance::Printed { .. }, _) => (),
+            (Provenance::Printed { place }, _) => card.add_words("place", place),
             (_, "") => card.add_command("paper", self.project),
             (_, name) => card.add_command(&format!("paper --rerun {name}"), self.project),
         }
