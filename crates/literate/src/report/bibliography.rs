@@ -1,10 +1,9 @@
 //! Reads `references.bib` into the list of references and the labels of citations.
 
-use super::bibtex;
+use super::bibtex::{self, citation_names, list_authors, list_editors, parse_people};
 use super::document::{Inline, Reference, push, to_plain_text, words_and_maths};
 use super::error::Error;
 use super::latex;
-use super::people::{citation_names, list_authors, list_editors, parse_people};
 use super::tex;
 use crate::input::{Place, one_line};
 use biblatex::{ChunksExt, Entry, EntryType, ParseErrorKind};

@@ -63,10 +63,7 @@ impl Filler {
         });
         let parse = || set.and_then(|()| tera.add_raw_templates(sources));
         let (names, added) = rayon::join(|| context_names(values, &tables), parse);
-        let mut context = Context::new();
-        for (group, names) in names.as_object().into_iter().flatten() {
-            context.insert(group.clone(), names);
-        }
+        let context = Context::from_serialize(&names).unwrap_or_default();
         let filler = Filler { tera, templates: templates.clone(), declared, context, names };
         added.map_err(|error| filler.translate(&error))?;
         Ok(filler)

@@ -28,7 +28,6 @@ pub(crate) mod mark;
 mod markdown;
 mod mathml;
 mod parse;
-mod people;
 mod search;
 pub(crate) mod tex;
 pub(crate) mod values;
