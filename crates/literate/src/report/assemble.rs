@@ -4,57 +4,25 @@ use super::bibliography::Library;
 use super::card::{Cards, link_to_line};
 use super::claims::{scorecard, to_row};
 use super::document::{self, Block, Inline};
-use super::edition::{Document, Edition};
+use super::edition::Document;
 use super::error::{Error, Thing};
 use super::filled::{Filled, Part};
 use super::filler::Filler;
 use super::folder::{self, Files, SUMS, is_generated};
+use super::input::Input;
 use super::labels::Labels;
 use super::ledger::{EquationEntry, FigureEntry, Ledger};
-use super::lint::Declared;
 use super::mark;
 use super::values::ValueRegistry;
 use super::{coded, html, latex, ledger, markdown, parse, search, tex};
 use crate::claims::Check;
-use crate::experiments::AnyExperiment;
 use crate::figures::Figure;
 use crate::input::Place;
 use crate::names::Names;
-use crate::project::Project;
-use crate::prose::Templates;
 use crate::table::{DataFile, Table};
 use rayon::iter::Either;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
-
-/// All that a report is made of.
-#[derive(Clone, Copy)]
-pub struct Input<'a> {
-    pub templates: &'a Templates,
-    pub values: &'a ValueRegistry,
-    /// Phrases that may have numbers.
-    pub declared: &'a Declared,
-    /// Rows of tables that are not values or claims, by the name that templates use.
-    pub rows: &'a BTreeMap<&'static str, serde_json::Value>,
-    /// Statements and relations.
-    pub claims: &'a [Check],
-    pub figures: &'a [Figure],
-    /// What a page loads when a reader asks it to compute: lab.js.
-    pub lab: Option<&'a str>,
-    /// The path from the report's folder to the project, `../`, or `None` if it lies elsewhere.
-    pub top: Option<&'a str>,
-    pub edition: &'a Edition,
-    pub project: &'a Project,
-    pub experiments: &'a [&'static dyn AnyExperiment],
-    /// Tells what is wrong and stops no report.
-    pub warn: &'a (dyn Fn(&str) + Sync),
-}
-
-impl<'a> Input<'a> {
-    pub(super) fn figure(&self, name: &str) -> Option<&'a Figure> {
-        self.figures.iter().find(|figure| figure.id == name)
-    }
-}
 
 /// Makes the whole report in memory. What is wrong with the prose of all documents is reported at
 /// once: first what Tera says, then what can be read and resolved, then what can be written.

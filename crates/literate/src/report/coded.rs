@@ -1,8 +1,8 @@
 //! Finds hard-coded numbers in texts that code gives to figures, notes, tables and checks: a string
 //! of the program, or of the texts of its checks, has the number and the words around it.
 
-use super::assemble::Input;
 use super::error::Error;
+use super::input::Input;
 use super::lint::{self, Declared};
 use super::values::Number;
 use crate::claims::Kind;

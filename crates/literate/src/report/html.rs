@@ -6,11 +6,11 @@
 pub(super) mod shared;
 mod table;
 
-use super::assemble::Input;
 use super::document::{self, Block, Formula, Inline, Reference};
 use super::document::{heading_place, place_on_page, to_spelt_text};
 use super::error::Error;
 use super::filled::Part;
+use super::input::Input;
 use super::{latex, mathml};
 use crate::claims::Verdict;
 use crate::figures::{Glyphs, escape, outlines};

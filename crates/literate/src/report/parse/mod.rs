@@ -6,12 +6,12 @@
 mod brackets;
 mod inlines;
 
-use super::assemble::Input;
 use super::card::links;
 use super::document::{Block, Inline, Table, to_plain_text};
 use super::edition::Document;
 use super::error::{Error, Thing, fault};
 use super::filled::{Filled, Part};
+use super::input::Input;
 use super::latex;
 use crate::input::one_line;
 use pulldown_cmark::{
