@@ -117,7 +117,9 @@ fn write_block(block: &Block) -> String {
                 let place = label(&format!("ref:{}", entry.key));
                 format!("\\item {place}{}\n", inlines(&entry.to_inlines()))
             };
-            format!("{HANGING}{}\\end{{list}}", entries.iter().map(item).collect::<String>())
+            // Second lines are indented.
+            let list = r"\begin{list}{}{\leftmargin=1.5em\itemindent=-1.5em\itemsep=0.3ex}";
+            format!("{list}\n{}\\end{{list}}", entries.iter().map(item).collect::<String>())
         }
     }
 }
@@ -132,9 +134,6 @@ fn bookmark(text: &[Inline]) -> String {
     };
     tex::escape(&to_spelt_text(text).chars().map(ascii).collect::<String>())
 }
-
-/// The list of references: its second lines are indented.
-const HANGING: &str = "\\begin{list}{}{\\leftmargin=1.5em\\itemindent=-1.5em\\itemsep=0.3ex}\n";
 
 /// A place that `\hyperref[…]` finds.
 fn label(id: &str) -> String {

@@ -3,9 +3,6 @@
 use super::damaged::survives;
 use super::*;
 
-/// Broken prose, line and column of each error, and words of their messages; or a heading.
-const BROKEN: &str = include_str!("broken.txt");
-
 #[test]
 fn faults_in_prose_are_reported_with_their_places() {
     let mut wrong = Vec::new();
@@ -17,7 +14,8 @@ fn faults_in_prose_are_reported_with_their_places() {
             line.replace(name, &sign.repeat(201))
         })
     };
-    for line in BROKEN.lines().map(deep) {
+    // Broken prose, line and column of each error, and words of their messages; or a heading.
+    for line in include_str!("broken.txt").lines().map(deep) {
         let parts: Vec<String> = line.split(" => ").map(unmarked).collect();
         let [broken, places, words] = parts.as_slice() else { continue };
         let made = assembled(&format!("{PROSE}\n\n{broken}\n"));
