@@ -54,13 +54,12 @@ impl Declared {
     }
 }
 
-/// Words that are numbers and nothing else, also with the ending *-fold*.
-const WORDS: &str = "two three four five six seven eight nine ten eleven twelve thirteen fourteen \
-    fifteen sixteen seventeen eighteen nineteen twenty thirty forty fifty sixty seventy eighty ninety \
-    hundred thousand million billion dozen hundreds thousands millions dozens tens twice thrice";
-
-static LISTS: LazyLock<[BTreeSet<&str>; 3]> =
-    LazyLock::new(|| [WORDS, BETWEEN, AROUND].map(|list| list.split_whitespace().collect()));
+/// Words that are numbers and nothing else, also with the ending *-fold*; units behind a number;
+/// signs that end a side of a relation; and what may surround a number that is still alone.
+static LISTS: LazyLock<[BTreeSet<&str>; 4]> = LazyLock::new(|| {
+    let mut lists = include_str!("words.txt").split("\n\n");
+    [(); 4].map(|()| lists.next().unwrap_or_default().split_whitespace().collect())
+});
 
 fn is_number_word(word: &str) -> bool {
     // Of most words the first letter tells, much faster, that they are none.
@@ -143,16 +142,12 @@ fn is_name(before: &str, number: &str) -> bool {
 const FIRST: &str =
     "A About Above After And At Below Between By For From If In Near Of On Only Over The To With";
 
-/// Units that a sentence names behind a number.
-const UNITS: &str = "s ms µs ns min h d m km cm mm µm nm g kg mg N kN Pa kPa MPa J kJ W kW V mV A mA K Hz \
-    kHz MHz GHz rad mrad ° °C % ‰ kB MB GB";
-
 /// Returns the unit, as `km/h`, that a text begins with.
 fn unit(text: &str) -> Option<String> {
     let ends = |c: char| c.is_whitespace() || ",.;:!?()[]{}|*_$\\".contains(c) || c == OPEN;
     let unit = text.split(ends).next().unwrap_or_default().replace('μ', "µ");
     let first = unit.split(['/', '·', '²', '³']).next()?;
-    UNITS.split_whitespace().any(|unit| unit == first).then_some(unit)
+    LISTS[1].contains(first).then_some(unit)
 }
 
 /// Describes what stands beside a value and changes its unit or sign, or returns `None` if nothing.
@@ -207,19 +202,12 @@ pub fn conflict(beside: [&str; 2], value: &Value, style: Style, maths: bool) -> 
     begins.then(|| format!("a minus before «{}» changes its sign; compute it so", value.id))
 }
 
-/// Signs that end a side of a relation.
-const BETWEEN: &str = r"= < > ≈ ≤ ≥ , ; & \\ \approx \simeq \sim \equiv \propto \le \leq \ge \geq \lt \gt \ne \neq \ll \gg
-    \lesssim \gtrsim \leqslant \geqslant \to \quad \qquad";
-
-/// What may surround a number that is still a number alone.
-const AROUND: &str = r"\, \; \: \! ~ ± \times \cdot \pm \thinspace \mathbf \mathit \boldsymbol";
-
 const DIGITS: &str = "0123456789 .,+-−^{}%\\()";
 
 /// Returns the sides of the relations in a formula, without what may surround a number, and whether
 /// each is what something equals.
 fn sides(tex: &str) -> Vec<(String, bool)> {
-    let [_, between, around] = &*LISTS;
+    let [_, _, between, around] = &*LISTS;
     let mut tex = tex.replace(r"\begin{aligned}", "").replace(r"\end{aligned}", "");
     // A number with a unit or another word is still a number alone.
     for open in [r"\text{", r"\textrm{", r"\mathrm{"] {
@@ -307,7 +295,7 @@ mod tests {
         let sentence = "k_12";
         assert_eq!(find_numbers(sentence, 2..4, &Declared::default()), [], "the part of a word");
         assert!(Declared::read("[[literal]]\nwhy = \" \"\nphrases = [\"two\"]").is_err());
-        assert_eq!(WORDS.split_whitespace().find(|word| !is_number_word(word)), None);
+        assert_eq!(LISTS[0].iter().find(|word| !is_number_word(word)), None);
     }
 
     #[test]

@@ -55,8 +55,8 @@ fn with_words(words: &[String], prose: &str) -> Result<Files, Error> {
 
 #[test]
 fn words_of_data_are_data() {
-    // Pieces of words, in which `␣` is a blank and `⏎` ends a line; and blocks around words `W` with
-    // what readers see of each.
+    // Pieces of words, in which `␣` is a blank and `⏎` ends a line; and blocks around words `W`
+    // with what readers see of each.
     let (pieces, blocks) = include_str!("data.txt").split_once("\n\n").unwrap();
     let pieces: Vec<&str> = pieces.split_whitespace().collect();
     let mut state = 2007_u64;
