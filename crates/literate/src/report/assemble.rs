@@ -155,12 +155,11 @@ fn ledger_of(input: &Input<'_>, parts: &[Part<'_>], labels: &Labels) -> Ledger {
             (entry.label, entry.number) = (id.clone(), number.clone());
         }
     }
-    let equations = input.edition.equations.clone();
     let mut claims = input.claims.to_vec();
     // A relation that has no place in a document is one of `check` alone.
     let is_shown = |claim: &Check| labels.get(&format!("claim:{}", claim.id)).is_some();
     claims.retain(|claim| claim.kind.is_printed() || is_shown(claim));
-    Ledger { claims, figures, equations }
+    Ledger { claims, figures, equations: input.edition.equations.clone() }
 }
 
 /// Adds each document in its formats; returns the ids of all things of which a page opens the card.
@@ -243,18 +242,15 @@ pub fn files_of(figure: &Figure, license: &str) -> Files {
 
 /// Refuses two files of data with one name.
 fn check_files(tables: &[&Table], figures: &[Figure]) -> Result<(), Error> {
-    let mut names = Names::default();
-    let mut add = |name: &str, place: &str| {
-        names.add(name, place).map_err(|problem| Error::Message(format!("data: {problem}")))
-    };
-    for table in tables {
-        add(&DataFile::file_name(table.name()), &table.place())?;
-    }
-    for figure in figures {
+    let table = |table: &&Table| (DataFile::file_name(table.name()), table.place());
+    let figure = |figure: &Figure| {
         let place = format!("the figure {}", figure.id);
-        figure.data.iter().try_for_each(|file| add(&file.name, &place))?;
-    }
-    Ok(())
+        figure.data.iter().map(|file| (file.name.clone(), place.clone())).collect::<Vec<_>>()
+    };
+    let mut files = tables.iter().map(table).chain(figures.iter().flat_map(figure));
+    let mut names = Names::default();
+    let outcome = files.try_for_each(|(name, place)| names.add(&name, &place));
+    outcome.map_err(|problem| Error::Message(format!("data: {problem}")))
 }
 
 fn data(file: &DataFile) -> (String, Vec<u8>) {
