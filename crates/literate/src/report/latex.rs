@@ -187,7 +187,8 @@ fn inline(inline: &Inline) -> String {
             if words.starts_with("http") {
                 words = breakable(&words).replace('(', "\\allowbreak(");
             }
-            format!("\\href{{{}}}{{{words}}}", address(to))
+            let to = document::address(to).replace('%', r"\%").replace('#', r"\#");
+            format!("\\href{{{}}}{{{words}}}", to.replace('&', r"\&"))
         }
         // A PDF is read without the files of the report, so only the words are shown.
         Inline::Link { words, .. } => inlines(words),
@@ -212,10 +213,6 @@ fn breakable(code: &str) -> String {
         .replace(',', r",\allowbreak{}")
         .replace('[', r"\allowbreak{}[")
         .replace(']', r"]\allowbreak{}")
-}
-
-fn address(to: &str) -> String {
-    document::address(to).replace('%', r"\%").replace('#', r"\#").replace('&', r"\&")
 }
 
 /// Characters of a table in a line of the page, of one on its side, and there in small letters.
