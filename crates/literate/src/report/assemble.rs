@@ -4,58 +4,25 @@ use super::bibliography::Library;
 use super::card::{Cards, link_to_line};
 use super::claims::{scorecard, to_row};
 use super::document::{self, Block, Inline};
-use super::edition::{Document, Edition};
+use super::edition::Document;
 use super::error::{Error, Thing};
-use super::filled::Filled;
+use super::filled::{Filled, Part};
 use super::filler::Filler;
 use super::folder::{self, Files, SUMS, is_generated};
+use super::input::Input;
 use super::labels::Labels;
 use super::ledger::{EquationEntry, FigureEntry, Ledger};
-use super::lint::Declared;
 use super::mark;
-use super::parse::Part;
 use super::values::ValueRegistry;
 use super::{coded, html, latex, ledger, markdown, parse, search, tex};
 use crate::claims::Check;
-use crate::experiments::AnyExperiment;
 use crate::figures::Figure;
 use crate::input::Place;
 use crate::names::Names;
-use crate::project::Project;
-use crate::prose::Templates;
 use crate::table::{DataFile, Table};
 use rayon::iter::Either;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
-
-/// All that a report is made of.
-#[derive(Clone, Copy)]
-pub struct Input<'a> {
-    pub templates: &'a Templates,
-    pub values: &'a ValueRegistry,
-    /// Phrases that may have numbers.
-    pub declared: &'a Declared,
-    /// Rows of tables that are not values or claims, by the name that templates use.
-    pub rows: &'a BTreeMap<&'static str, serde_json::Value>,
-    /// Statements and relations.
-    pub claims: &'a [Check],
-    pub figures: &'a [Figure],
-    /// What a page loads when a reader asks it to compute: lab.js.
-    pub lab: Option<&'a str>,
-    /// The path from the report's folder to the project, `../`, or `None` if it lies elsewhere.
-    pub top: Option<&'a str>,
-    pub edition: &'a Edition,
-    pub project: &'a Project,
-    pub experiments: &'a [&'static dyn AnyExperiment],
-    /// Tells what is wrong and stops no report.
-    pub warn: &'a (dyn Fn(&str) + Sync),
-}
-
-impl<'a> Input<'a> {
-    pub(super) fn figure(&self, name: &str) -> Option<&'a Figure> {
-        self.figures.iter().find(|figure| figure.id == name)
-    }
-}
 
 /// Makes the whole report in memory. What is wrong with the prose of all documents is reported at
 /// once: first what Tera says, then what can be read and resolved, then what can be written.
@@ -116,10 +83,8 @@ fn fill(input: &Input<'_>, filler: &mut Filler) -> Result<(ValueRegistry, Vec<Fi
     let (filled, errors): (Vec<Filled>, Vec<Error>) =
         prose.partition_map(|prose| prose.map_or_else(Either::Right, Either::Left));
     all_in_order(errors)?;
-    let used: BTreeSet<String> =
-        filled.iter().flat_map(|filled| mark::values(&filled.text)).map(|(id, ..)| id).collect();
-    values.keep_cells(used.iter().map(String::as_str));
-    values.shorten(&input.project.sources);
+    let shown = filled.iter().flat_map(|filled| mark::values(&filled.text));
+    values.list(shown.map(|(id, ..)| id), &input.project.sources);
     Ok((values, filled))
 }
 
@@ -146,11 +111,12 @@ fn parts<'a>(
         Inline::Code(item) if item.contains("::") => link_to_line(&item, input.project),
         other => other,
     };
-    for Part { document, blocks, places, errors: own } in &mut parts {
-        errors.append(own);
-        document::rewrite(blocks, &mut |inline| document::relative_link(linked(inline), input.top));
-        let numbered = labels.number_all(blocks, *document).into_iter();
-        errors.extend(numbered.map(|error| places.locate(error)));
+    let relative = &mut |inline| document::relative_link(linked(inline), input.top);
+    for part in &mut parts {
+        errors.append(&mut part.errors);
+        document::rewrite(&mut part.blocks, relative);
+        let numbered = labels.number_all(&mut part.blocks, part.document).into_iter();
+        errors.extend(numbered.map(|error| part.locate(error)));
     }
     let ledger = ledger_of(input, &parts, &labels);
     // What a block with an error shows or names is not known.
@@ -170,11 +136,11 @@ fn parts<'a>(
     errors.extend(labels.add_keys(library.keys()));
     // What stands in a block with an error has an id without a number.
     for part in parts.iter().filter(|_| is_broken) {
-        labels.add_missing(&part.places, part.document);
+        labels.add_missing(part);
     }
-    for Part { document, blocks, places, .. } in &mut parts {
-        let unresolved = labels.resolve(blocks, *document, &library).into_iter();
-        errors.extend(unresolved.map(|error| places.locate(error)));
+    for part in &mut parts {
+        let unresolved = labels.resolve(&mut part.blocks, part.document, &library).into_iter();
+        errors.extend(unresolved.map(|error| part.locate(error)));
     }
     all_in_order(errors)?;
     library.warnings().for_each(|line| (input.warn)(&line));
@@ -190,12 +156,11 @@ fn ledger_of(input: &Input<'_>, parts: &[Part<'_>], labels: &Labels) -> Ledger {
             (entry.label, entry.number) = (id.clone(), number.clone());
         }
     }
-    let equations = input.edition.equations.clone();
     let mut claims = input.claims.to_vec();
     // A relation that has no place in a document is one of `check` alone.
     let is_shown = |claim: &Check| labels.get(&format!("claim:{}", claim.id)).is_some();
     claims.retain(|claim| claim.kind.is_printed() || is_shown(claim));
-    Ledger { claims, figures, equations }
+    Ledger { claims, figures, equations: input.edition.equations.clone() }
 }
 
 /// Adds each document in its formats; returns the ids of all things of which a page opens the card.
@@ -207,21 +172,24 @@ fn write_documents(
     errors: &mut Vec<Error>,
 ) -> Result<BTreeSet<String>, Error> {
     let edition = input.edition;
-    let write = |Part { document, blocks, .. }: &Part<'_>| {
+    let write = |part: &Part<'_>| {
+        let Part { document, blocks, .. } = part;
         let print = latex::write(blocks, *document, edition);
         let passages = search::passages(blocks, document.name);
-        (print, html::write(blocks, *document, input), markdown::write(blocks), passages)
+        (print, html::write(part, input), markdown::write(blocks), passages)
     };
     let written = || parts.par_iter().with_max_len(1).map(write).collect::<Vec<_>>();
     let (written, (index, points)) = rayon::join(written, || {
         rayon::join(|| html::shared::data_index(files, edition), || points_of(input.figures))
     });
     let (mut opened, mut texts) = (BTreeSet::new(), Vec::new());
-    for (Part { document, places, .. }, written) in parts.iter().zip(written) {
+    for (part, written) in parts.iter().zip(written) {
+        let document = part.document;
         let (print, (page, values, faults), mut markdown, passages) = written;
-        let unknown = tex::unknown(&print.to_string()).into_iter().map(Error::NoLatex);
-        errors.extend(unknown.chain(faults).map(|error| places.locate(error)));
-        let byline = edition.byline(*document);
+        let unknown = tex::unknown(&print.to_string()).into_iter();
+        errors.extend(unknown.map(|c| Error::no_latex(c).with_place(part.place_of(c))));
+        errors.extend(faults.into_iter().map(|error| part.locate(error)));
+        let byline = edition.byline(document);
         if !byline.is_empty() {
             let byline = format!("\n\n*{}*\n\n", markdown::escape_text(&byline));
             markdown = markdown.replacen("\n\n", &byline, 1);
@@ -281,18 +249,15 @@ pub fn files_of(figure: &Figure, license: &str) -> Files {
 
 /// Refuses two files of data with one name.
 fn check_files(tables: &[&Table], figures: &[Figure]) -> Result<(), Error> {
-    let mut names = Names::default();
-    let mut add = |name: &str, place: &str| {
-        names.add(name, place).map_err(|problem| Error::Message(format!("data: {problem}")))
-    };
-    for table in tables {
-        add(&DataFile::file_name(table.name()), &table.place())?;
-    }
-    for figure in figures {
+    let table = |table: &&Table| (DataFile::file_name(table.name()), table.place());
+    let figure = |figure: &Figure| {
         let place = format!("the figure {}", figure.id);
-        figure.data.iter().try_for_each(|file| add(&file.name, &place))?;
-    }
-    Ok(())
+        figure.data.iter().map(|file| (file.name.clone(), place.clone())).collect::<Vec<_>>()
+    };
+    let mut files = tables.iter().map(table).chain(figures.iter().flat_map(figure));
+    let mut names = Names::default();
+    let outcome = files.try_for_each(|(name, place)| names.add(&name, &place));
+    outcome.map_err(|problem| Error::Message(format!("data: {problem}")))
 }
 
 fn data(file: &DataFile) -> (String, Vec<u8>) {
@@ -318,5 +283,5 @@ fn check_links(part: &Part<'_>, labels: &Labels, files: &Files, input: &Input<'_
             format!("a link to {to}: there is no such file or place; correct or remove it");
         Error::unknown(Thing::Link, to, &problem, committed()).with_place(place)
     };
-    part.places.named(Thing::Link).filter(|(to, _)| !is_good(to)).map(error).collect()
+    part.named(Thing::Link).filter(|(to, _)| !is_good(to)).map(error).collect()
 }

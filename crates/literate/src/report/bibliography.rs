@@ -1,10 +1,9 @@
 //! Reads `references.bib` into the list of references and the labels of citations.
 
-use super::bibtex;
+use super::bibtex::{self, citation_names, list_authors, list_editors, parse_people};
 use super::document::{Inline, Reference, push, to_plain_text, words_and_maths};
 use super::error::Error;
 use super::latex;
-use super::people::{citation_names, list_authors, list_editors, parse_people};
 use super::tex;
 use crate::input::{Place, one_line};
 use biblatex::{ChunksExt, Entry, EntryType, ParseErrorKind};
@@ -175,12 +174,11 @@ fn reference(entry: &Entry, own: &Entry) -> Result<Reference, String> {
         let link = Inline::Link { to: to.clone(), words: vec![Inline::Text(to)] };
         rest.extend(enclosed(" ", vec![link], ""));
     }
-    // `Itor, E. (Ed.).`
-    let editors = || {
-        let kind = if people.len() > 1 { "Eds." } else { "Ed." };
-        field("editor").map(|_| format!("{} ({kind}).", list_authors(people)))
-    };
-    let listed = if authors.is_empty() { editors()? } else { list_authors(people) };
+    let mut listed = list_authors(people);
+    if authors.is_empty() {
+        field("editor")?;
+        listed += if people.len() > 1 { " (Eds.)." } else { " (Ed.)." };
+    }
     bibtex::refuse_left_out(own, &read_fields.borrow())?;
     let [year, date] = [field("year")?, field("date")?].map(|inlines| to_plain_text(&inlines));
     let reference = Reference {
@@ -196,13 +194,8 @@ fn reference(entry: &Entry, own: &Entry) -> Result<Reference, String> {
 }
 
 fn enclosed(before: &str, inner: Vec<Inline>, after: &str) -> Vec<Inline> {
-    if inner.is_empty() {
-        return inner;
-    }
-    let mut inlines = vec![Inline::Text(before.into())];
-    inlines.extend(inner);
-    inlines.push(Inline::Text(after.into()));
-    inlines
+    let text = |words: &str| vec![Inline::Text(words.into())];
+    if inner.is_empty() { inner } else { [text(before), inner, text(after)].concat() }
 }
 
 /// Reads a field, which may be absent; macros other than accents are refused.
@@ -312,14 +305,11 @@ mod tests {
         Ok(library.list(&keys).iter().map(entry).collect())
     }
 
-    /// Entries, and what the list shows of them, with a bar between, or the fault; `·` is a blank
-    /// that does not break. A single author comes first, and accents are sorted as letters.
-    const ENTRIES: &str = include_str!("tests/entries.txt");
-
     #[test]
     fn each_entry_is_shown_as_it_is_meant_or_refused_by_its_key() {
         let mut wrong = Vec::new();
-        for line in ENTRIES.lines() {
+        // A single author comes first, and accents are sorted as letters.
+        for line in include_str!("tests/entries.txt").lines() {
             let (bibtex, expected) = line.split_once(" => ").unwrap();
             wrong.extend(match list(bibtex).map(|references| references.join(" | ")) {
                 Ok(references) => {

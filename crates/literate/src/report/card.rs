@@ -44,7 +44,7 @@ impl Card {
     fn add_item(&mut self, name: &'static str, item: &str, cards: &Cards<'_>) {
         if !item.is_empty() {
             let link = || vec![(name, vec![link_to_line(item, cards.project)])];
-            self.rows.extend(cards.shared_rows(name, item, link));
+            self.rows.extend(cards.cached(name, item, link));
         }
     }
 
@@ -64,7 +64,7 @@ impl Card {
             let names = std::iter::once("its parameters").chain(std::iter::repeat(""));
             names.zip(settings.iter().map(|setting| words_and_maths(setting))).collect()
         };
-        self.rows.extend(cards.shared_rows("its parameters", name, parameters));
+        self.rows.extend(cards.cached("its parameters", name, parameters));
     }
 }
 
@@ -81,12 +81,7 @@ pub struct Cards<'a> {
 
 impl Cards<'_> {
     /// Returns rows that many cards have, and makes them for the first of these.
-    fn shared_rows(
-        &self,
-        name: &'static str,
-        of: &str,
-        make: impl FnOnce() -> Vec<Row>,
-    ) -> Vec<Row> {
+    fn cached(&self, name: &'static str, of: &str, make: impl FnOnce() -> Vec<Row>) -> Vec<Row> {
         let mut shared = self.shared.lock().unwrap_or_else(PoisonError::into_inner);
         shared.entry((name, of.into())).or_insert_with(make).clone()
     }
@@ -154,12 +149,9 @@ impl Cards<'_> {
                 card.add_words("realisations", &realisations.to_string());
             }
         }
-        if let Provenance::Printed { place } = &value.kind {
-            card.add_words("place", place);
-        }
         // Before its parameters, which may be many.
         match (&value.kind, &*value.experiment) {
-            (Provenance::Printed { .. }, _) => (),
+            (Provenance::Printed { place }, _) => card.add_words("place", place),
             (_, "") => card.add_command("paper", self.project),
             (_, name) => card.add_command(&format!("paper --rerun {name}"), self.project),
         }

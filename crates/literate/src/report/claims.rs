@@ -153,36 +153,37 @@ mod tests {
 
     #[test]
     fn a_score_counts_no_definition_and_each_word_for_a_difference() {
-        let check = |kind, why: &str, explained: bool| {
-            let mut check = Check::new(kind, "a", "b", "c");
-            check.why = why.into();
-            check.judged(false).explained("d", explained)
+        let check = |kind, why: &str, holds: bool| {
+            let check = Check { why: why.into(), ..Check::new(kind, "a", "b", "c") };
+            check.judged(false).explained("d", holds)
         };
-        use Kind::{Definition, Statement};
-        let checks = [(Statement, "misprint", true), (Statement, "misprint", false)];
-        let checks = checks.into_iter().chain([(Definition, "", true)]);
-        let checks: Vec<Check> = checks.map(|(kind, why, holds)| check(kind, why, holds)).collect();
-        assert_eq!([0, 1].map(|i: usize| checks[i].difference()), [Some("misprint"), None]);
-        assert_eq!(to_row(&checks[2])["kind"], "definition");
-        let score = scorecard(&checks);
-        let count = |id: &str| score.iter().find(|value| value.id == id).unwrap().number.clone();
-        let mut readings = vec![checks[0].clone(), checks[1].clone()];
-        readings.iter_mut().for_each(|check| check.sentence = "s".into());
-        readings[0].verdict = Verdict::Reproduced;
-        readings.push(readings[0].clone());
-        readings[2].sentence.clear();
-        let by_sentence = scorecard(&readings);
+        let definition = check(Kind::Definition, "", true);
+        assert_eq!(to_row(&definition)["kind"], "definition");
+        let differs = [true, false].map(|holds| check(Kind::Statement, "misprint", holds));
+        assert_eq!(differs.each_ref().map(Check::difference), [Some("misprint"), None]);
+        let count = |checks: &[Check], name: &str| {
+            let is_meant = |value: &Value| value.id == format!("score.{name}");
+            scorecard(checks).into_iter().find(is_meant).unwrap().number
+        };
+        let checks = [&differs[..], &[definition]].concat();
+        for (name, expected) in
+            [("total", 2), ("differs", 1), ("definitions", 1), ("misprint", 1), ("exact_of", 2)]
+        {
+            assert_eq!(count(&checks, name), Number::Integer(expected), "{name}");
+        }
+        // A sentence of two readings, of which one holds, and one of one reading.
+        let reading = |sentence: &str, verdict| Check {
+            sentence: sentence.into(),
+            verdict,
+            ..differs[0].clone()
+        };
+        let verdicts =
+            [("s", Verdict::Reproduced), ("s", Verdict::Differs), ("", Verdict::Reproduced)];
+        let readings = verdicts.map(|(sentence, verdict)| reading(sentence, verdict));
         for (name, expected) in
             [("sentences", 2), ("sentences_reproduced", 1), ("sentences_split", 1)]
         {
-            let id = format!("score.{name}");
-            let value = by_sentence.iter().find(|value| value.id == id).unwrap();
-            assert_eq!(value.number, Number::Integer(expected), "{name}");
-        }
-        let expected =
-            [("total", 2), ("differs", 1), ("definitions", 1), ("misprint", 1), ("exact_of", 2)];
-        for (name, expected) in expected {
-            assert_eq!(count(&format!("score.{name}")), Number::Integer(expected), "{name}");
+            assert_eq!(count(&readings, name), Number::Integer(expected), "{name}");
         }
     }
 }

@@ -1,8 +1,8 @@
 //! Finds hard-coded numbers in texts that code gives to figures, notes, tables and checks: a string
 //! of the program, or of the texts of its checks, has the number and the words around it.
 
-use super::assemble::Input;
 use super::error::Error;
+use super::input::Input;
 use super::lint::{self, Declared};
 use super::values::Number;
 use crate::claims::Kind;
@@ -52,8 +52,10 @@ pub fn check(input: &Input<'_>) -> Vec<Error> {
         let file = file.filter(|_| text.len() > 1).map(|file| &input.project.sources.files[file]);
         let quoted = file.filter(|(_, code)| code.contains(&format!("\"{text}\"")));
         for (at, numeral) in numerals {
+            let around = |(begin, words): (usize, &str)| (begin..begin + words.len()).contains(at);
+            let covers = |words: &str| text.match_indices(words).any(around);
             let mut typed = by_numeral.get(&**numeral).into_iter().flatten();
-            let typed = typed.find(|typed| typed.cover(text, *at));
+            let typed = typed.find(|t| t.words.len() <= text.len() && covers(&t.words));
             let place = typed.map(|typed| &*typed.place).or(quoted.map(|(path, _)| *path));
             let place = place.map(|place| format!("{place}: {:?}", one_line(text, 60)));
             errors.extend(place.map(|place| Error::hard_coded(numeral).with_place(place)));
@@ -82,14 +84,6 @@ fn typed(path: &str, code: &str, meant: &HashSet<&str>) -> Vec<Typed> {
         line += piece.matches('\n').count();
     }
     typed
-}
-
-impl Typed {
-    /// Returns whether these words stand in a text, around this place.
-    fn cover(&self, text: &str, at: usize) -> bool {
-        let covers = |(begin, words): (usize, &str)| (begin..begin + words.len()).contains(&at);
-        self.words.len() <= text.len() && text.match_indices(&self.words).any(covers)
-    }
 }
 
 /// All texts that code gives, with the file that draws it for one of a figure, and whether number

@@ -151,14 +151,10 @@ pub fn push(inlines: &mut Vec<Inline>, next: Inline) {
 /// Returns a printed value as text, with its formulas, or as a formula where it has a power of ten.
 pub fn to_inlines(printed: &Printed) -> Vec<Inline> {
     let numeral = match printed {
-        Printed::Words(words) => {
-            let line = in_one_line(words);
-            return if has_formulas(&line) {
-                words_and_maths(&line)
-            } else {
-                vec![Inline::Text(line)]
-            };
+        Printed::Words(words) if has_formulas(&in_one_line(words)) => {
+            return words_and_maths(&in_one_line(words));
         }
+        Printed::Words(words) => return vec![Inline::Text(in_one_line(words))],
         Printed::Number(numeral) => numeral,
     };
     let percent = if numeral.in_percent { "\u{a0}%" } else { "" };

@@ -29,11 +29,6 @@ pub enum Error {
     /// What is wrong with a thing in the prose, by which its place is found.
     #[error("{}", one_line(problem, MAX_LENGTH))]
     Named { thing: Thing, name: String, problem: String },
-    #[error(
-        "the character '{}' (U+{:04X}) is not known in LaTeX; write it as TeX between $ signs, or in words",
-        one_line(&.0.to_string(), 1), u32::from(*.0)
-    )]
-    NoLatex(char),
     #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
     Several(Vec<Error>),
 }
@@ -50,6 +45,13 @@ impl Error {
         let problem =
             format!("the formula ${formula}$ cannot be shown: {problem}; write it differently");
         Error::Named { thing: Thing::Formula, name: tex, problem }
+    }
+
+    /// Makes the error of a character that LaTeX lacks.
+    pub(crate) fn no_latex(c: char) -> Error {
+        let (sign, code) = (one_line(&c.to_string(), 1), u32::from(c));
+        let problem = "is not known in LaTeX; write it as TeX between $ signs, or in words";
+        Error::Message(format!("the character '{sign}' (U+{code:04X}) {problem}"))
     }
 
     pub(crate) fn hard_coded(numeral: &str) -> Error {

@@ -1,6 +1,8 @@
 //! Keeps where each piece of the filled prose stands in the templates, and tells what people typed
 //! or calculated in their tags from what was computed.
 
+use super::document::Block;
+use super::edition::Document;
 use super::error::{Error, Thing};
 use super::lint::{Declared, find_numbers};
 use super::mark::{self, Piece, framed, pieces};
@@ -117,23 +119,19 @@ fn is_typed(expression: &str, typed: &BTreeSet<String>) -> bool {
     !name.starts_with(char::is_alphabetic) || typed.contains(name) || has_numbers
 }
 
-/// The offsets of the things that errors can name.
-#[derive(Clone, Debug)]
-pub struct Places<'a> {
-    filled: &'a Filled,
-    values: &'a ValueRegistry,
-    offsets: Vec<(Thing, String, usize)>,
+/// A document as it is read.
+pub struct Part<'a> {
+    pub document: Document,
+    /// The tree, without the blocks that have an error.
+    pub blocks: Vec<Block>,
+    pub errors: Vec<Error>,
+    pub filled: &'a Filled,
+    pub values: &'a ValueRegistry,
+    /// Where the things stand that errors can name.
+    pub offsets: Vec<(Thing, String, usize)>,
 }
 
-impl<'a> Places<'a> {
-    pub fn new(filled: &'a Filled, values: &'a ValueRegistry) -> Self {
-        Places { filled, values, offsets: Vec::new() }
-    }
-
-    pub fn add(&mut self, thing: Thing, name: &str, offset: usize) {
-        self.offsets.push((thing, name.into(), offset));
-    }
-
+impl Part<'_> {
     /// Returns the names and the places of all things of one kind.
     pub fn named(&self, kind: Thing) -> impl Iterator<Item = (&str, Place)> {
         let of_kind = self.offsets.iter().filter(move |(thing, ..)| *thing == kind);
@@ -142,29 +140,22 @@ impl<'a> Places<'a> {
 
     /// Adds to an error the place of what it names; of two things with one id this is the second.
     pub fn locate(&self, error: Error) -> Error {
-        let offset = match &error {
-            Error::Named { thing, name, .. } => self.offset(*thing, name),
-            Error::NoLatex(c) => self.filled.text.find(*c).or_else(|| self.value_with(*c)),
-            _ => None,
-        };
-        match offset {
-            Some(offset) => error.with_place(self.filled.place(offset)),
-            None if matches!(error, Error::NoLatex(_)) => {
-                error.with_place("the authors, or the code of a listing".to_string())
-            }
+        let Error::Named { thing, name, .. } = &error else { return error };
+        let mut offsets = self.offsets.iter().rev();
+        match offsets.find(|(kind, of, _)| kind == thing && of == name) {
+            Some((.., offset)) => error.with_place(self.filled.place(*offset)),
             None => error,
         }
     }
 
-    /// Returns where the first value stands whose words have a character.
-    fn value_with(&self, c: char) -> Option<usize> {
-        let words = |id: &str| Some(self.values.get(id)?.to_plain_text());
+    /// Returns where a character stands first, in the prose or in the words of a value.
+    pub fn place_of(&self, c: char) -> Place {
+        let has = |id: &str| self.values.get(id).is_some_and(|v| v.to_plain_text().contains(c));
         let mut values = mark::values(&self.filled.text);
-        values.find_map(|(id, _, at)| words(&id)?.contains(c).then_some(at.start))
-    }
-
-    fn offset(&self, thing: Thing, name: &str) -> Option<usize> {
-        let mut offsets = self.offsets.iter().rev();
-        offsets.find(|(kind, of, _)| *kind == thing && of == name).map(|(.., offset)| *offset)
+        let in_value = || values.find_map(|(id, _, at)| has(&id).then_some(at.start));
+        match self.filled.text.find(c).or_else(in_value) {
+            Some(offset) => self.filled.place(offset),
+            None => "the authors, or the code of a listing".to_string().into(),
+        }
     }
 }

@@ -76,9 +76,7 @@ impl Filler {
         let empty = values.iter().chain(cells).filter(|value| value.number == Number::None);
         register_otherwise(&mut self.tera, empty.map(|value| value.id.clone()).collect());
         self.names = context_names(values, &tables);
-        for (group, names) in self.names.as_object().into_iter().flatten() {
-            self.context.insert(group.clone(), names);
-        }
+        self.context = Context::from_serialize(&self.names).unwrap_or_default();
     }
 
     pub fn fill(&self, path: &str) -> Result<String, Error> {
@@ -91,7 +89,7 @@ impl Filler {
         if left == 0 {
             let problem = format!("this writes more than {} MiB; end the loop earlier", MOST >> 20);
             let offset = output.rsplit(mark::OPEN).find_map(mark::offset_in);
-            return Err(self.fault(path, offset.unwrap_or_default(), &problem));
+            return Err(fault(&self.templates, path, offset.unwrap_or_default(), &problem));
         }
         outcome.map(|()| output).map_err(|error| self.translate(&error))
     }
@@ -120,11 +118,11 @@ impl Filler {
             let (before, name) = template.split_at(offset);
             if group == "raw." && before.trim_end_matches(['-', ' ']).ends_with('«') {
                 let problem = "a plain number is for conditions; write the value, as «v.name»";
-                return Err(self.fault(path, offset, problem));
+                return Err(fault(&self.templates, path, offset, problem));
             }
             let begins = !before.ends_with(|c: char| c.is_alphanumeric() || "._".contains(c));
             if let Some(problem) = self.describe_missing(name).filter(|_| begins) {
-                return Err(self.fault(path, offset, &problem));
+                return Err(fault(&self.templates, path, offset, &problem));
             }
         }
         for (offset, _) in template.match_indices('«') {
@@ -138,14 +136,10 @@ impl Filler {
             let mut filters = filters.map(str::trim).filter(|_| group.is_some_and(is_value));
             if let Some(other) = filters.find(|filter| !FILTERS.contains(filter)) {
                 let problem = "is no filter for values; write «… | significant(digits=2)»";
-                return Err(self.fault(path, offset, &format!("`{other}` {problem}")));
+                return Err(fault(&self.templates, path, offset, &format!("`{other}` {problem}")));
             }
         }
         Ok(())
-    }
-
-    fn fault(&self, path: &str, offset: usize, problem: &str) -> Error {
-        fault(&self.templates, path, offset, problem)
     }
 
     /// Describes which part of a name, `table["row"].column`, does not exist, with the most similar
@@ -203,12 +197,12 @@ impl Filler {
         let before = before.collect::<String>();
         let offset = begun + pieces(&before).into_iter().map(typed).sum::<usize>();
         let Some(tag) = template.get(..offset).and_then(|before| before.rfind('«')) else {
-            return self.fault(path, offset, &problem);
+            return fault(&self.templates, path, offset, &problem);
         };
         let inside = template[tag..].trim_start_matches(['«', '-', ' ']);
         let (inside, rest) = inside.split_at(inside.find(['«', '»', '\n']).unwrap_or(inside.len()));
         if !rest.starts_with('»') {
-            return self.fault(path, tag, "this « has no » on its line; close it");
+            return fault(&self.templates, path, tag, "this « has no » on its line; close it");
         }
         let problem = match self.describe_missing(inside) {
             Some(missing) => missing,
@@ -218,7 +212,7 @@ impl Filler {
             }
             None => problem,
         };
-        self.fault(path, offset, &problem)
+        fault(&self.templates, path, offset, &problem)
     }
 }
 

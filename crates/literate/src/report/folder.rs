@@ -14,6 +14,9 @@ pub const SUMS: &str = "SHA256SUMS";
 
 pub const BUILT: &str = "SHA256SUMS.built";
 
+/// The ends of files right in the folder: three kinds that are committed, and three that are built.
+const ENDS: [&str; 6] = [".md", ".tex", ".json", ".html", ".css", ".js"];
+
 /// A report in memory: paths relative to its folder, and bytes.
 pub type Files = BTreeMap<String, Vec<u8>>;
 
@@ -41,8 +44,8 @@ fn failed(place: &Path) -> impl Fn(io::Error) -> Error {
     move |source| Error::Io { place: place.clone(), source }
 }
 
-fn digest_files<'a>(files: impl Iterator<Item = (&'a String, &'a Vec<u8>)>) -> Digests {
-    files.map(|(path, bytes)| (path.clone(), sha256(bytes))).collect()
+fn digest_files(files: &Files) -> Digests {
+    files.iter().map(|(path, bytes)| (path.clone(), sha256(bytes))).collect()
 }
 
 /// Returns the lines that `sha256sum --check` reads, sorted by path.
@@ -51,10 +54,10 @@ fn to_list(digests: &Digests) -> String {
 }
 
 pub fn add_lists(files: &mut Files) {
-    for (name, generated) in [(SUMS, false), (BUILT, true)] {
-        let listed = files.iter().filter(|(path, _)| is_generated(path) == generated);
-        let list = to_list(&digest_files(listed));
-        files.insert(name.into(), list.into_bytes());
+    let (built, committed): (Digests, Digests) =
+        digest_files(files).into_iter().partition(|(path, _)| is_generated(path));
+    for (name, digests) in [(SUMS, committed), (BUILT, built)] {
+        files.insert(name.into(), to_list(&digests).into_bytes());
     }
 }
 
@@ -64,9 +67,7 @@ pub fn read_sums(text: &str) -> Option<Digests> {
     let entry = |line: &str| {
         let (digest, path) = line.split_once("  ")?;
         let of_report = match path.split_once('/') {
-            None => [".md", ".tex", ".json", ".html", ".css", ".js"]
-                .iter()
-                .any(|end| path.ends_with(end)),
+            None => ENDS.iter().any(|end| path.ends_with(end)),
             Some((folder, name)) => {
                 ["data", "figures", "fonts"].contains(&folder) && !name.contains('/')
             }
@@ -113,7 +114,7 @@ pub fn is_generated(path: &str) -> bool {
             "data" => name == "index.html",
             _ => folder == "fonts",
         },
-        None => path == BUILT || [".html", ".css", ".js"].iter().any(|end| path.ends_with(end)),
+        None => path == BUILT || ENDS[3..].iter().any(|end| path.ends_with(end)),
     }
 }
 
@@ -185,7 +186,7 @@ pub fn write(folder: &Path, files: &Files, force: bool) -> Result<(), Error> {
     };
     let mut to_write = files.clone();
     if !is_whole {
-        listed.extend(digest_files(files.iter()));
+        listed.extend(digest_files(files));
         to_write.insert(SUMS.into(), to_list(&listed).into_bytes());
     }
     let mut to_write: Vec<(&String, &Vec<u8>)> = to_write.iter().collect();
@@ -216,7 +217,8 @@ fn find_faults(folder: &Path, mut expected: Digests) -> Result<(usize, Vec<Strin
         Err(error) if is_absent(&error) => Some(format!("missing  {path}")),
         Err(error) => Some(format!("unread   {path} ({error})")),
     };
-    let unlisted = walk(folder)?.into_iter().filter(|path| !expected.contains_key(path));
+    let is_listed = |path: &String| expected.contains_key(path) || [SUMS, BUILT].contains(&&**path);
+    let unlisted = walk(folder)?.into_iter().filter(|path| !is_listed(path));
     let unlisted = unlisted.map(|path| format!("unlisted {path}"));
     Ok((expected.len(), expected.iter().filter_map(fault).chain(unlisted).collect()))
 }
@@ -227,13 +229,11 @@ pub fn verify(folder: &Path) -> Result<(usize, Vec<String>), Error> {
     let mut digests =
         read_sums(&sums).ok_or_else(|| Error::NoList(folder.display().to_string()))?;
     digests.extend(read_list(folder, BUILT).unwrap_or_default());
-    let (count, mut faults) = find_faults(folder, digests)?;
-    faults.retain(|fault| ![SUMS, BUILT].iter().any(|list| *fault == format!("unlisted {list}")));
-    Ok((count, faults))
+    find_faults(folder, digests)
 }
 
 pub fn compare(folder: &Path, files: &Files) -> Result<(usize, Vec<String>), Error> {
-    find_faults(folder, digest_files(files.iter()))
+    find_faults(folder, digest_files(files))
 }
 
 #[cfg(test)]

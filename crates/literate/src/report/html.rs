@@ -6,11 +6,11 @@
 pub(super) mod shared;
 mod table;
 
-use super::assemble::Input;
 use super::document::{self, Block, Formula, Inline, Reference};
 use super::document::{heading_place, place_on_page, to_spelt_text};
-use super::edition::Document;
 use super::error::Error;
+use super::filled::Part;
+use super::input::Input;
 use super::{latex, mathml};
 use crate::claims::Verdict;
 use crate::figures::{Glyphs, escape, outlines};
@@ -21,11 +21,8 @@ use std::cell::RefCell;
 use std::collections::BTreeSet;
 
 /// Returns what report.html inserts, the ids of the cards that the page opens, and errors.
-pub fn write(
-    blocks: &[Block],
-    here: Document,
-    input: &Input<'_>,
-) -> (Json, BTreeSet<String>, Vec<Error>) {
+pub fn write(part: &Part<'_>, input: &Input<'_>) -> (Json, BTreeSet<String>, Vec<Error>) {
+    let Part { document: here, blocks, .. } = part;
     let (page, edition, sources) = (Page::new(input), input.edition, &input.project.sources);
     let title = document::title(blocks).unwrap_or_default();
     let (heading, body) = (page.inlines(title), page.blocks(blocks));
@@ -78,7 +75,7 @@ pub fn write(
         "doi": escaped(edition.doi),
         "bibtex": [escaped(&edition.bibtex_authors()), escaped(&latex::inlines(title))],
         "heading": heading,
-        "byline": escaped(&edition.byline(here)),
+        "byline": escaped(&edition.byline(*here)),
         "sections": sections,
         "figures": figures,
         "body": body,

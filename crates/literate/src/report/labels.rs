@@ -5,8 +5,8 @@ use super::document::{
     Block, Inline, Reference, Table, heading_place, place_on_page, rewrite, visit,
 };
 use super::edition::Document;
-use super::error::{Error, Thing, fault};
-use super::filled::Places;
+use super::error::{Error, Thing};
+use super::filled::Part;
 use crate::claims::Check;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -61,9 +61,9 @@ impl Labels {
     }
 
     /// Adds labels to ids without a label, so that a reference to them is no error.
-    pub fn add_missing(&mut self, places: &Places<'_>, document: Document) {
-        for (id, _) in places.named(Thing::Id) {
-            let label = Label { number: "?".into(), document };
+    pub fn add_missing(&mut self, part: &Part<'_>) {
+        for (id, _) in part.named(Thing::Id) {
+            let label = Label { number: "?".into(), document: part.document };
             self.labels.entry(id.to_string()).or_insert(label);
         }
     }
@@ -281,17 +281,6 @@ fn cite(
     }
     inlines.push(Inline::Text("]".into()));
     Ok(inlines)
-}
-
-/// Refuses an id that does not begin with the kind of what it names.
-pub(super) fn check_kind(kind: &str, id: &str) -> Result<(), Error> {
-    let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, ':' | '-' | '_' | '.');
-    let name = id.strip_prefix(kind).and_then(|name| name.strip_prefix(':'));
-    if name.is_some_and(|name| !name.is_empty() && name.chars().all(plain)) {
-        return Ok(());
-    }
-    let problem = "followed by letters, digits or any of : - _ .";
-    Err(fault(format!("the id {id:?} is not valid: write {kind}: {problem}")))
 }
 
 /// Returns what references call things of a kind: one and several, in short and in full.

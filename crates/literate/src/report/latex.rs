@@ -117,7 +117,9 @@ fn write_block(block: &Block) -> String {
                 let place = label(&format!("ref:{}", entry.key));
                 format!("\\item {place}{}\n", inlines(&entry.to_inlines()))
             };
-            format!("{HANGING}{}\\end{{list}}", entries.iter().map(item).collect::<String>())
+            // Second lines are indented.
+            let list = r"\begin{list}{}{\leftmargin=1.5em\itemindent=-1.5em\itemsep=0.3ex}";
+            format!("{list}\n{}\\end{{list}}", entries.iter().map(item).collect::<String>())
         }
     }
 }
@@ -132,9 +134,6 @@ fn bookmark(text: &[Inline]) -> String {
     };
     tex::escape(&to_spelt_text(text).chars().map(ascii).collect::<String>())
 }
-
-/// The list of references: its second lines are indented.
-const HANGING: &str = "\\begin{list}{}{\\leftmargin=1.5em\\itemindent=-1.5em\\itemsep=0.3ex}\n";
 
 /// A place that `\hyperref[…]` finds.
 fn label(id: &str) -> String {
@@ -188,7 +187,8 @@ fn inline(inline: &Inline) -> String {
             if words.starts_with("http") {
                 words = breakable(&words).replace('(', "\\allowbreak(");
             }
-            format!("\\href{{{}}}{{{words}}}", address(to))
+            let to = document::address(to).replace('%', r"\%").replace('#', r"\#");
+            format!("\\href{{{}}}{{{words}}}", to.replace('&', r"\&"))
         }
         // A PDF is read without the files of the report, so only the words are shown.
         Inline::Link { words, .. } => inlines(words),
@@ -213,10 +213,6 @@ fn breakable(code: &str) -> String {
         .replace(',', r",\allowbreak{}")
         .replace('[', r"\allowbreak{}[")
         .replace(']', r"]\allowbreak{}")
-}
-
-fn address(to: &str) -> String {
-    document::address(to).replace('%', r"\%").replace('#', r"\#").replace('&', r"\&")
 }
 
 /// Characters of a table in a line of the page, of one on its side, and there in small letters.

@@ -54,13 +54,12 @@ impl Declared {
     }
 }
 
-/// Words that are numbers and nothing else, also with the ending *-fold*.
-const WORDS: &str = "two three four five six seven eight nine ten eleven twelve thirteen fourteen \
-    fifteen sixteen seventeen eighteen nineteen twenty thirty forty fifty sixty seventy eighty ninety \
-    hundred thousand million billion dozen hundreds thousands millions dozens tens twice thrice";
-
-static LISTS: LazyLock<[BTreeSet<&str>; 3]> =
-    LazyLock::new(|| [WORDS, BETWEEN, AROUND].map(|list| list.split_whitespace().collect()));
+/// Words that are numbers and nothing else, also with the ending *-fold*; units behind a number;
+/// signs that end a side of a relation; and what may surround a number that is still alone.
+static LISTS: LazyLock<[BTreeSet<&str>; 4]> = LazyLock::new(|| {
+    let mut lists = include_str!("words.txt").split("\n\n");
+    [(); 4].map(|()| lists.next().unwrap_or_default().split_whitespace().collect())
+});
 
 fn is_number_word(word: &str) -> bool {
     // Of most words the first letter tells, much faster, that they are none.
@@ -131,16 +130,14 @@ fn ends_literal(c: char) -> bool {
     c.is_whitespace() || c == '|' || c == OPEN
 }
 
-/// Returns the digit of a sign `\3`: the number that it begins is meant literally.
-fn literal_digit(sign: &str) -> Option<&str> {
-    sign.strip_prefix('\\').filter(|digit| digit.starts_with(|c: char| c.is_ascii_digit()))
-}
-
+/// Takes away the backslash of a sign `\3`: the number that it begins is meant literally.
 pub fn without_backslashes(text: &str) -> String {
     if !text.contains('\\') {
         return text.into();
     }
-    tex::signs(text).map(|sign| literal_digit(sign).unwrap_or(sign)).collect()
+    let is_digit = |sign: &&str| sign.starts_with(|c: char| c.is_ascii_digit());
+    let literal = |sign| str::strip_prefix(sign, '\\').filter(is_digit).unwrap_or(sign);
+    tex::signs(text).map(literal).collect()
 }
 
 /// Returns whether a number behind a backslash belongs to an address, `doi:`, is a year, or is a
@@ -161,35 +158,20 @@ fn is_name(before: &str, number: &str) -> bool {
 const FIRST: &str =
     "A About Above After And At Below Between By For From If In Near Of On Only Over The To With";
 
-/// Units that a sentence names behind a number.
-const UNITS: &str = "s ms µs ns min h d m km cm mm µm nm g kg mg N kN Pa kPa MPa J kJ W kW V mV A mA K Hz \
-    kHz MHz GHz rad mrad ° °C % ‰ kB MB GB";
-
 /// Returns the unit, as `km/h`, that a text begins with.
 fn unit(text: &str) -> Option<String> {
     let ends = |c: char| c.is_whitespace() || ",.;:!?()[]{}|*_$\\".contains(c) || c == OPEN;
     let unit = text.split(ends).next().unwrap_or_default().replace('μ', "µ");
     let first = unit.split(['/', '·', '²', '³']).next()?;
-    UNITS.split_whitespace().any(|unit| unit == first).then_some(unit)
-}
-
-/// Returns whether a point behind this character ends a sentence or a name, and begins no number.
-fn is_word_end(c: char) -> bool {
-    !c.is_whitespace() && !"([".contains(c)
+    LISTS[1].contains(first).then_some(unit)
 }
 
 /// Describes what stands beside a value and changes its unit or sign, or returns `None` if nothing.
-pub fn conflict(
-    before: &str,
-    after: &str,
-    value: &Value,
-    style: Style,
-    maths: bool,
-) -> Option<String> {
+pub fn conflict(beside: [&str; 2], value: &Value, style: Style, maths: bool) -> Option<String> {
     let tex = [r"\,", r"\;", r"\ ", "~", " ", "\u{a0}", "\u{202f}"];
     // Emphasis, links and formulas do not part a sign from its value.
     let marks = |c: char| "*_[".contains(c) && !maths;
-    let (before, after) = (before.trim_end_matches(marks), after.trim_start_matches(marks));
+    let (before, after) = (beside[0].trim_end_matches(marks), beside[1].trim_start_matches(marks));
     let link = after.strip_prefix("](").and_then(|link| Some(link.split_once(')')?.1));
     let after = link.unwrap_or(after);
     let (inside, before) = (before, before.strip_suffix('$').unwrap_or(before));
@@ -206,8 +188,10 @@ pub fn conflict(
     let typed = unit(rest).filter(|_| touches || maths || rest.len() < after.len());
     let glued = ["", ".", ",", "e"].iter().filter_map(|sign| after.strip_prefix(sign));
     let digit = |c: char| c.is_ascii_digit();
+    // A point behind a word ends a sentence or a name, and begins no number.
+    let ends_word = |c: char| !c.is_whitespace() && !"([".contains(c);
     let is_after =
-        |text: &str| if maths { text.ends_with(digit) } else { !text.ends_with(is_word_end) };
+        |text: &str| if maths { text.ends_with(digit) } else { !text.ends_with(ends_word) };
     let after_point = inside.strip_suffix('.').is_some_and(is_after);
     let is_number = !matches!(value.number, Number::Text(_));
     let goes_on = |rest: &str| !maths && rest.starts_with(OPEN);
@@ -234,19 +218,12 @@ pub fn conflict(
     begins.then(|| format!("a minus before «{}» changes its sign; compute it so", value.id))
 }
 
-/// Signs that end a side of a relation.
-const BETWEEN: &str = r"= < > ≈ ≤ ≥ , ; & \\ \approx \simeq \sim \equiv \propto \le \leq \ge \geq \lt \gt \ne \neq \ll \gg
-    \lesssim \gtrsim \leqslant \geqslant \to \quad \qquad";
-
-/// What may surround a number that is still a number alone.
-const AROUND: &str = r"\, \; \: \! ~ ± \times \cdot \pm \thinspace \mathbf \mathit \boldsymbol";
-
 const DIGITS: &str = "0123456789 .,+-−^{}%\\()";
 
 /// Returns the sides of the relations in a formula, without what may surround a number, and whether
 /// each is what something equals.
 fn sides(tex: &str) -> Vec<(String, bool)> {
-    let [_, between, around] = &*LISTS;
+    let [_, _, between, around] = &*LISTS;
     let mut tex = tex.replace(r"\begin{aligned}", "").replace(r"\end{aligned}", "");
     // A number with a unit or another word is still a number alone.
     for open in [r"\text{", r"\textrm{", r"\mathrm{"] {
@@ -334,7 +311,7 @@ mod tests {
         let sentence = "k_12";
         assert_eq!(find_numbers(sentence, 2..4, &Declared::default()), [], "the part of a word");
         assert!(Declared::read("[[literal]]\nwhy = \" \"\nphrases = [\"two\"]").is_err());
-        assert_eq!(WORDS.split_whitespace().find(|word| !is_number_word(word)), None);
+        assert_eq!(LISTS[0].iter().find(|word| !is_number_word(word)), None);
     }
 
     #[test]
@@ -345,16 +322,16 @@ mod tests {
                 let sentence = sentence.replace('·', "\u{a0}").replace('⏎', "\n");
                 let (before, after) = sentence.split_once('V').unwrap();
                 let value = Value { unit: unit.trim().into(), ..Value::real("x", 0.5, 1) };
-                let problem = conflict(before, after, &value, Style::default(), false);
+                let problem = conflict([before, after], &value, Style::default(), false);
                 assert_eq!(problem.is_some(), wrong, "{sentence}: {problem:?}");
             }
         }
         let value = Value { unit: "ms".into(), ..Value::real("x", 0.5, 1) };
         let percent = Style { in_percent: true, ..Style::default() };
-        let problem = conflict("", "", &value, percent, false).unwrap();
+        let problem = conflict([""; 2], &value, percent, false).unwrap();
         assert!(problem.contains("which `percent` would change"), "{problem}");
         let of_maths =
-            |before, after| conflict(before, after, &value, Style::default(), true).is_some();
+            |before, after| conflict([before, after], &value, Style::default(), true).is_some();
         assert!(of_maths("-$", "$") && of_maths("$0.", "$") && of_maths("$", ".5$"));
         let maths = |after| of_maths("$-", after);
         assert_eq!(

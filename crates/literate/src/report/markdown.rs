@@ -172,9 +172,12 @@ fn inlines_in(list: &[Inline], within: Within) -> String {
                 markdown.push_str(&formula_to_markdown(&formula.to_tex()));
                 in_formula = true;
             }
-            // Words that touch the closing dollar move inside, and so does a formula behind them.
+            // Words that touch the closing dollar would stop GitHub from rendering it. They move
+            // inside, and so does a formula behind them.
             Inline::Text(words) if in_formula => {
-                let (glued, rest) = words.split_at(glued_length(words));
+                let touches = |c: char| c.is_alphanumeric() || "-–’'“”".contains(c);
+                let rest = words.trim_start_matches(touches);
+                let glued = &words[..words.len() - rest.len()];
                 if !glued.is_empty() {
                     markdown.push_str(&format!(r"\text{{{glued}}}"));
                 }
@@ -261,12 +264,6 @@ fn write_inline(inline: &Inline, next: Option<&Inline>, within: Within, out: &mu
         Inline::Unresolved { ids, .. } => out.push_str(&ids.join("; ")),
         Inline::Maths(_) | Inline::Value { .. } => (),
     }
-}
-
-/// Returns the length of what touches the closing dollar and would stop GitHub from rendering it.
-fn glued_length(text: &str) -> usize {
-    let touches = |c: char| c.is_alphanumeric() || matches!(c, '-' | '–' | '’' | '\'' | '“' | '”');
-    text.find(|c| !touches(c)).unwrap_or(text.len())
 }
 
 /// What Markdown would read in a formula, and macros with the same meaning.

@@ -3,11 +3,9 @@
 use super::document::{Block, Inline, Table, heading_place, place_on_page, to_spelt_text};
 use super::tex;
 
-/// What the search can find: the id of its place, the name of its section, and its text.
-type Passage = [String; 3];
-
-/// Returns a passage for each piece of a document that has text.
-pub fn passages(blocks: &[Block], document: &str) -> Vec<Passage> {
+/// Returns each piece of a document that has text: the id of its place, the name of its section,
+/// and the text.
+pub fn passages(blocks: &[Block], document: &str) -> Vec<[String; 3]> {
     let (mut section, mut name, mut passages) = ("text".into(), document.into(), Vec::new());
     for block in blocks {
         if let Block::Heading { level: 2.., number, id, text } = block {

@@ -42,17 +42,13 @@ impl ValueRegistry {
         self.tables.values().map(AsRef::as_ref)
     }
 
-    /// Lists the cells with these addresses among the values.
-    pub(crate) fn keep_cells<'a>(&mut self, named: impl IntoIterator<Item = &'a str>) {
-        for address in named {
-            if let Some(cell) = self.cell(address).cloned() {
-                self.values.insert(address.to_string(), cell);
+    /// Lists the cells that documents show, and shortens the paths of items to what they show.
+    pub(crate) fn list(&mut self, shown: impl Iterator<Item = String>, sources: &Sources) {
+        for address in shown {
+            if let Some(cell) = self.cell(&address).cloned() {
+                self.values.insert(address, cell);
             }
         }
-    }
-
-    /// Shortens the paths of items to what documents show.
-    pub(crate) fn shorten(&mut self, sources: &Sources) {
         for value in self.values.values_mut() {
             value.source = sources.shorten(&value.source).to_string();
         }

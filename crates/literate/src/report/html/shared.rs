@@ -1,11 +1,11 @@
 //! Makes the files that all pages share: fonts, the cards of their numbers, and the index of data.
 
-use super::super::assemble::Input;
 use super::super::card::Cards;
 use super::super::document::{self, Inline};
 use super::super::edition::Edition;
 use super::super::error::Error;
 use super::super::folder::Files;
+use super::super::input::Input;
 use super::super::labels::Labels;
 use super::Page;
 use crate::figures::escape;

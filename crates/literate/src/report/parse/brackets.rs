@@ -54,9 +54,8 @@ fn binds(mut before: &str, mut after: &str, printed: &Printed) -> bool {
     let of_text = [r"\text", r"\textrm", r"\begin", r"\end"];
     let opened = before.rsplit_once('{').map_or("", |(opened, _)| opened);
     let is_text = *last == "}" && of_text.iter().any(|of| opened.ends_with(of));
-    let to_spelt_text = tex::spell(last);
-    let is_letter =
-        to_spelt_text.chars().all(char::is_alphabetic) && to_spelt_text.chars().count() == 1;
+    let letter = tex::spell(last);
+    let is_letter = letter.chars().all(char::is_alphabetic) && letter.chars().count() == 1;
     let is_in = |list: &str| list.split_whitespace().any(|sign| sign == *last);
     // The second of two bars ends what stands between them.
     let is_end = *last == "|" && before_signs.iter().filter(|sign| **sign == "|").count() % 2 == 0;

@@ -23,8 +23,9 @@ impl Reader<'_> {
         };
         while let Some((event, range)) = self.events.next_if(|(event, _)| !ends(event)) {
             let start = range.start;
-            let outcome = self.read_inline(event, range, &mut inlines);
-            outcome.map_err(|error| error.with_place(self.filled.place(start)))?;
+            let read = self.read_inline(event, range);
+            let read = read.map_err(|error| error.with_place(self.filled.place(start)))?;
+            read.into_iter().for_each(|inline| push(&mut inlines, inline));
         }
         Ok(inlines)
     }
@@ -40,15 +41,10 @@ impl Reader<'_> {
         Ok(inlines)
     }
 
-    /// Adds what an event begins to the running text, up to its end.
-    fn read_inline(
-        &mut self,
-        event: Event<'_>,
-        range: Range<usize>,
-        inlines: &mut Vec<Inline>,
-    ) -> Result<(), Error> {
-        inlines.push(match event {
-            Event::Text(text) => return self.read_text(&text, range, inlines),
+    /// Reads what an event begins, up to its end.
+    fn read_inline(&mut self, event: Event<'_>, range: Range<usize>) -> Result<Vec<Inline>, Error> {
+        Ok(vec![match event {
+            Event::Text(text) => return self.read_text(&text, range),
             Event::Code(code) => {
                 let is_digits =
                     |(_, numeral): &(usize, String)| numeral.starts_with(|c: char| c.is_numeric());
@@ -73,8 +69,7 @@ impl Reader<'_> {
             Event::SoftBreak => Inline::Soft,
             Event::Start(tag) => self.span(tag, range)?,
             _ => return Err(fault(UNSUPPORTED_MARKUP)),
-        });
-        Ok(())
+        }])
     }
 
     fn note_hard_coded(&mut self, numbers: impl IntoIterator<Item = (usize, String)>) {
@@ -110,7 +105,7 @@ impl Reader<'_> {
                 let problem = "has a standard error, which `significant` drops; leave it out";
                 Some(format!("«{id}» {problem}"))
             } else {
-                lint::conflict(before, after, value, style, is_maths)
+                lint::conflict([before, after], value, style, is_maths)
             };
             if let Some(problem) = problem {
                 self.note_error(before.len(), Error::Message(problem));
@@ -147,7 +142,7 @@ impl Reader<'_> {
             Tag::Strong => Inline::Strong(words),
             Tag::Link { dest_url, .. } => {
                 let to = self.to_plain_text(&dest_url)?;
-                self.places.add(Thing::Link, &to, range.start);
+                self.offsets.push((Thing::Link, to.clone(), range.start));
                 Inline::Link { to, words }
             }
             Tag::Image { .. } => return Err(fault(FIGURE_NOT_ALONE)),
@@ -179,17 +174,12 @@ impl Reader<'_> {
             return Err(fault(format!("[{reference}]: {problem}")));
         };
         for id in ids.iter().chain([&ids.join("; ")]) {
-            self.places.add(Thing::Reference, id, offset);
+            self.offsets.push((Thing::Reference, id.clone(), offset));
         }
         Ok(Inline::Unresolved { ids, in_sentence: false })
     }
 
-    fn read_text(
-        &mut self,
-        text: &str,
-        part: Range<usize>,
-        inlines: &mut Vec<Inline>,
-    ) -> Result<(), Error> {
+    fn read_text(&mut self, text: &str, part: Range<usize>) -> Result<Vec<Inline>, Error> {
         let source = &self.filled.text;
         // An id is in one piece of text, or at the end of several.
         let id_at = self.id_at.start.max(part.start)..self.id_at.end.min(part.end);
@@ -203,13 +193,14 @@ impl Reader<'_> {
         if let Some(cut) = cut {
             let [from, to] = [cut.start - part.start, cut.end - part.start];
             let [before, after] = [text.get(..from), text.get(to..)].map(Option::unwrap_or_default);
-            self.read_text(before, part.start..cut.start, inlines)?;
+            let mut inlines = self.read_text(before, part.start..cut.start)?;
             if cut != id_at {
                 let id = source[cut.start + 1..cut.end].to_string();
-                self.places.add(Thing::Reference, &id, cut.start);
+                self.offsets.push((Thing::Reference, id.clone(), cut.start));
                 inlines.push(Inline::Unresolved { ids: vec![id], in_sentence: true });
             }
-            return self.read_text(after, cut.end..part.end, inlines);
+            inlines.extend(self.read_text(after, cut.end..part.end)?);
+            return Ok(inlines);
         }
         if let Some((offset, problem)) = leftover(source, part.start, text)
             && offset >= self.end_of_cut_formula
@@ -224,19 +215,17 @@ impl Reader<'_> {
         // A backslash before a backslash is meant.
         let escaped = usize::from(source[..part.start].ends_with('\\') && text.starts_with('\\'));
         let text = &(text[..escaped].to_string() + &lint::without_backslashes(&text[escaped..]));
-        for piece in pieces(text) {
-            match piece {
-                Piece::Text(words) if words.contains(mark::is_of_mark) => {
-                    return Err(fault("a part of the name of a value was cut off; name it whole"));
-                }
-                Piece::Text(words) => push(inlines, Inline::Text(words.to_string())),
-                Piece::Value { id, filters } => {
-                    let printed = self.print_value(&id, filters)?;
-                    inlines.push(Inline::Value { id, printed });
-                }
+        let inline = |piece| match piece {
+            Piece::Text(words) if words.contains(mark::is_of_mark) => {
+                Err(fault("a part of the name of a value was cut off; name it whole"))
             }
-        }
-        Ok(())
+            Piece::Text(words) => Ok(Inline::Text(words.to_string())),
+            Piece::Value { id, filters } => {
+                let printed = self.print_value(&id, filters)?;
+                Ok(Inline::Value { id, printed })
+            }
+        };
+        pieces(text).into_iter().map(inline).collect()
     }
 
     fn formula(&mut self, tex: &str, offset: usize) -> Result<Formula, Error> {
@@ -267,7 +256,7 @@ impl Reader<'_> {
             return Err(Error::formula(tex, &problem));
         }
         let formula = bracketed(formula.0);
-        self.places.add(Thing::Formula, &formula.to_tex(), offset);
+        self.offsets.push((Thing::Formula, formula.to_tex(), offset));
         Ok(formula)
     }
 
@@ -383,18 +372,15 @@ fn leftover(source: &str, start: usize, text: &str) -> Option<(usize, &'static s
 
 /// Finds the first citation or reference without brackets, `@rice1945`, in a part of the text.
 fn find_citation(source: &str, part: Range<usize>) -> Option<Range<usize>> {
-    for (offset, _) in source[part.clone()].match_indices('@') {
-        let offset = part.start + offset;
-        let before = source[..offset].chars().next_back();
-        let rest = &source[offset + 1..part.end];
-        let ends = |c: char| c.is_whitespace() || ",;{}[]|".contains(c) || mark::is_of_mark(c);
-        let id = rest.split(ends).next().unwrap_or_default();
+    let ends = |c: char| c.is_whitespace() || ",;{}[]|".contains(c) || mark::is_of_mark(c);
+    let citation = |(offset, _): (usize, &str)| {
+        let (before, rest) = source[..part.end].split_at(part.start + offset);
+        let begins = |c: char| c.is_whitespace() || "(“‘–—".contains(c);
+        let id = rest[1..].split(ends).next().unwrap_or_default();
         let id = id.trim_end_matches(|c: char| ".:?!()'\"’”".contains(c));
-        if before.is_none_or(|c| c.is_whitespace() || "(“‘–—".contains(c))
-            && id.starts_with(char::is_alphanumeric)
-        {
-            return Some(offset..offset + 1 + id.len());
-        }
-    }
-    None
+        let is_key = id.starts_with(char::is_alphanumeric);
+        let begins = before.is_empty() || before.ends_with(begins);
+        (begins && is_key).then(|| before.len()..before.len() + 1 + id.len())
+    };
+    source[part.clone()].match_indices('@').find_map(citation)
 }

@@ -6,28 +6,18 @@
 mod brackets;
 mod inlines;
 
-use super::assemble::Input;
 use super::card::links;
 use super::document::{Block, Inline, Table, to_plain_text};
 use super::edition::Document;
 use super::error::{Error, Thing, fault};
-use super::filled::{Filled, Places};
-use super::labels::check_kind;
+use super::filled::{Filled, Part};
+use super::input::Input;
 use super::latex;
 use crate::input::one_line;
 use pulldown_cmark::{
     Alignment, BrokenLink, CodeBlockKind, CowStr, Event, Options, Parser, Tag, TagEnd,
 };
 use std::ops::Range;
-
-/// A document as it is read.
-pub struct Part<'a> {
-    pub document: Document,
-    /// The tree, without the blocks that have an error.
-    pub blocks: Vec<Block>,
-    pub places: Places<'a>,
-    pub errors: Vec<Error>,
-}
 
 /// Parses the filled Markdown of a document.
 pub fn parse<'a>(filled: &'a Filled, document: Document, input: &Input<'a>) -> Part<'a> {
@@ -48,7 +38,7 @@ pub fn parse<'a>(filled: &'a Filled, document: Document, input: &Input<'a>) -> P
         depth: Depth::default(),
         has_title: false,
         is_in_cell: false,
-        places: Places::new(filled, input.values),
+        offsets: Vec::new(),
         errors: Vec::new(),
     };
     let blocks = reader.blocks().unwrap_or_default();
@@ -57,10 +47,10 @@ pub fn parse<'a>(filled: &'a Filled, document: Document, input: &Input<'a>) -> P
     }
     let is_hidden = |(_, c): &(usize, char)| c.is_control() && !['\n', '\t'].contains(c);
     if let Some((offset, c)) = filled.text.char_indices().find(is_hidden) {
-        reader.note_error(offset, Error::NoLatex(c));
+        reader.note_error(offset, Error::no_latex(c));
     }
-    let Reader { places, errors, .. } = reader;
-    Part { document, blocks, places, errors }
+    let Reader { offsets, errors, .. } = reader;
+    Part { document, blocks, errors, filled, values: input.values, offsets }
 }
 
 /// Numbers of what stands around the text that is being read.
@@ -86,7 +76,7 @@ struct Reader<'a> {
     has_title: bool,
     /// Whether it is a cell of a table, where a dash stands for no number.
     is_in_cell: bool,
-    places: Places<'a>,
+    offsets: Vec<(Thing, String, usize)>,
     errors: Vec<Error>,
 }
 
@@ -108,9 +98,16 @@ impl<'a> Reader<'a> {
         self.errors.push(error.with_place(self.filled.place(offset)));
     }
 
+    /// Keeps where an id stands; refuses one that does not begin with the kind of what it names.
     fn add_id(&mut self, kind: &str, id: &str, offset: usize) -> Result<(), Error> {
-        self.places.add(Thing::Id, id, offset);
-        check_kind(kind, id)
+        self.offsets.push((Thing::Id, id.into(), offset));
+        let is_plain = |c: char| c.is_ascii_alphanumeric() || ":-_.".contains(c);
+        let name = id.strip_prefix(kind).and_then(|name| name.strip_prefix(':'));
+        if name.is_some_and(|name| !name.is_empty() && name.chars().all(is_plain)) {
+            return Ok(());
+        }
+        let problem = "followed by letters, digits or any of : - _ .";
+        Err(fault(format!("the id {id:?} is not valid: write {kind}: {problem}")))
     }
 
     /// Reads blocks up to the end of what contains them. After an error reading goes on with the

@@ -3,14 +3,6 @@
 use super::damaged::survives;
 use super::*;
 
-/// Broken prose, line and column of each error, and words of their messages; or a heading.
-const BROKEN: &str = include_str!("broken.txt");
-
-/// Prose with what can be nested and referred to.
-const MORE: &str = "\n\n## Sec {#sec:a}\n\nMasses ([@rice1945]; see [@eq:18] and [@sec:a]) move *fast*, [here](data):\n\n\
-    $$\np_{\\mathrm{crit}} = \\left(\\frac{1 + \\sqrt{N+1}}{«v.tiny | significant(digits=3)»}\\right)^2\n$$\n\n\
-    | Check | Ours |\n|:--|--:|\n<% for d in [\"a\", \"b\"] %>| «d» | «v.tiny | percent» |\n<% endfor %>\n";
-
 #[test]
 fn faults_in_prose_are_reported_with_their_places() {
     let mut wrong = Vec::new();
@@ -22,7 +14,8 @@ fn faults_in_prose_are_reported_with_their_places() {
             line.replace(name, &sign.repeat(201))
         })
     };
-    for line in BROKEN.lines().map(deep) {
+    // Broken prose, line and column of each error, and words of their messages; or a heading.
+    for line in include_str!("broken.txt").lines().map(deep) {
         let parts: Vec<String> = line.split(" => ").map(unmarked).collect();
         let [broken, places, words] = parts.as_slice() else { continue };
         let made = assembled(&format!("{PROSE}\n\n{broken}\n"));
@@ -54,7 +47,7 @@ fn good_prose_passes() {
 #[test]
 fn no_reader_panics_or_hangs() {
     let report = assembled(PROSE).unwrap();
-    survives("prose", &format!("{PROSE}{MORE}"), 200, assembled);
+    survives("prose", &format!("{PROSE}\n\n{}", include_str!("nested.md")), 200, assembled);
     survives("references.bib", BIB, 100, |text| {
         bibliography::Library::read("", text).map(|library| library.warnings().count())
     });

@@ -4,10 +4,6 @@ use super::*;
 use std::io::Write as _;
 use std::process::{Command, Stdio};
 
-/// Pieces of words, with signs of markup, in which `␣` is a blank and `⏎` ends a line; and blocks
-/// around words `W` with what readers see of each, one a line.
-const DATA: &str = include_str!("data.txt");
-
 /// All text below an element, cut at the word *cut*, with one blank between words.
 fn read(xml: &str, top: &str, shows: fn(&str) -> bool) -> Vec<String> {
     let options = roxmltree::ParsingOptions { allow_dtd: true, ..Default::default() };
@@ -59,7 +55,9 @@ fn with_words(words: &[String], prose: &str) -> Result<Files, Error> {
 
 #[test]
 fn words_of_data_are_data() {
-    let (pieces, blocks) = DATA.split_once("\n\n").unwrap();
+    // Pieces of words, in which `␣` is a blank and `⏎` ends a line; and blocks around words `W`
+    // with what readers see of each.
+    let (pieces, blocks) = include_str!("data.txt").split_once("\n\n").unwrap();
     let pieces: Vec<&str> = pieces.split_whitespace().collect();
     let mut state = 2007_u64;
     let mut random = |below: usize| {
