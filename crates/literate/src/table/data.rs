@@ -30,11 +30,15 @@ impl DataFile {
 
     /// Writes the file: comma separated, one line a row, each ended by a line feed.
     pub fn to_csv(&self) -> String {
-        let line = |cells: &Vec<String>| {
-            let cells: Vec<Cow<'_, str>> = cells.iter().map(|cell| quoted(cell)).collect();
-            cells.join(",") + "\n"
-        };
-        [&self.header].into_iter().chain(&self.rows).map(line).collect()
+        let mut csv = String::new();
+        for line in [&self.header].into_iter().chain(&self.rows) {
+            for (index, cell) in line.iter().enumerate() {
+                csv.push_str(if index > 0 { "," } else { "" });
+                csv.push_str(&quoted(cell));
+            }
+            csv.push('\n');
+        }
+        csv
     }
 }
 
@@ -60,7 +64,7 @@ pub struct DataFile {
 }
 
 fn quoted(cell: &str) -> Cow<'_, str> {
-    if cell.contains([',', '"', '\n']) {
+    if cell.bytes().any(|byte| matches!(byte, b',' | b'"' | b'\n')) {
         format!("\"{}\"", cell.replace('"', "\"\"")).into()
     } else {
         cell.into()
