@@ -68,20 +68,33 @@ pub fn check(input: &Input<'_>) -> Vec<Error> {
 fn typed(path: &str, code: &str, meant: &HashSet<&str>) -> Vec<Typed> {
     let code = code.split("#[cfg(test)]\nmod ").next().unwrap_or_default();
     let wants_words = meant.iter().any(|word| word.starts_with(char::is_alphabetic));
-    let (mut typed, mut line) = (Vec::new(), 1);
-    for piece in code.split('"').flat_map(|piece| piece.split('{')).flat_map(|it| it.split('}')) {
-        let may_have_number = wants_words || piece.bytes().any(|byte| byte.is_ascii_digit());
-        if may_have_number && piece.contains(char::is_alphabetic) {
-            let text = piece.replace(r"\\", r"\");
-            let numerals = lint::find_numbers(&text, 0..text.len(), &Declared::default());
-            let numerals = numerals.into_iter().map(|(_, numeral)| numeral);
-            let numerals: Vec<_> = numerals.filter(|one| meant.contains(&**one)).collect();
-            if !numerals.is_empty() {
-                let (place, words) = (format!("{path}:{line}"), bare(&text.replace('\\', "")));
-                typed.push(Typed { place, words, numerals });
+    let (mut typed, mut begin, mut line, mut lines) = (Vec::new(), 0, 1, 0);
+    let (mut may_have_number, mut has_letter, mut is_in_word) = (wants_words, false, false);
+    // One pass over the bytes takes a tenth of the time of splitting.
+    let (bytes, mut end) = (code.as_bytes(), 0);
+    while end <= bytes.len() {
+        match if end < bytes.len() { bytes[end] } else { b'"' } {
+            b'"' | b'{' | b'}' => {
+                if may_have_number && has_letter {
+                    let text = code[begin..end].replace(r"\\", r"\");
+                    let numerals = lint::find_numbers(&text, 0..text.len(), &Declared::default());
+                    let numerals = numerals.into_iter().map(|(_, numeral)| numeral);
+                    let numerals: Vec<_> = numerals.filter(|one| meant.contains(&**one)).collect();
+                    if !numerals.is_empty() {
+                        let place = format!("{path}:{line}");
+                        let words = bare(&text.replace('\\', ""));
+                        typed.push(Typed { place, words, numerals });
+                    }
+                }
+                (begin, line, lines) = (end + 1, line + lines, 0);
+                (may_have_number, has_letter, is_in_word) = (wants_words, false, false);
             }
+            b'0'..=b'9' => (may_have_number, is_in_word) = (may_have_number || !is_in_word, true),
+            b'a'..=b'z' | b'A'..=b'Z' => (has_letter, is_in_word) = (true, true),
+            b'\n' => (lines, is_in_word) = (lines + 1, false),
+            byte => (has_letter, is_in_word) = (has_letter || byte >= 128, byte == b'_'),
         }
-        line += piece.matches('\n').count();
+        end += 1;
     }
     typed
 }
