@@ -19,8 +19,11 @@ pub fn number(low: f64, high: f64) -> impl Parse<f64> {
 /// Several numbers, which are one value of the command line.
 pub type Values = Arc<[f64]>;
 
+/// A range with more numbers is taken for a mistake, where they are not times of output.
+pub const MOST_VALUES: f64 = 1e5;
+
 /// Returns a parser of a list of numbers from `low` to `high`, both included, or of a range of them
-/// with at most `most`: one with more is taken for a mistake.
+/// with at most `most`.
 ///
 /// A range A..B:STEP is A + i·STEP, rounded to the decimals of A and STEP, so that 0.1..0.2:0.02
 /// holds the same double 0.12 as a list does; B belongs to it when it is hit within STEP/1000.
@@ -76,7 +79,7 @@ mod tests {
 
     #[test]
     fn lists_and_ranges() {
-        let sigmas = numbers(0.0, 1e6, 1e5);
+        let sigmas = numbers(0.0, 1e6, MOST_VALUES);
         let read = |text: &str| sigmas(text).unwrap().to_vec();
         assert_eq!(read("0.1,0.12"), [0.1, 0.12]);
         assert_eq!(read(" 0.3 "), [0.3]);

@@ -1,6 +1,6 @@
 //! Runs the verb `sweep`: an ensemble, with a row for each σ.
 
-use super::range::{Values, number, numbers};
+use super::range::{MOST_VALUES, Values, number, numbers};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use impact_chain::counts::{NEAR_DECADES, SLOW_DECADES};
 use impact_chain::rise::{Column, Mean, RisePoint};
@@ -20,7 +20,7 @@ use std::ops::Range;
 #[command(long_about = include_str!("sweep.txt"), after_help = help())]
 pub struct Args {
     /// Standard deviations: a list 0.1,0.12 or a range A..B:STEP (B included when hit).
-    #[arg(long, value_name = "A..B:STEP|LIST", allow_hyphen_values = true, value_parser = numbers(0.0, 1e6, 1e5))]
+    #[arg(long, value_name = "A..B:STEP|LIST", allow_hyphen_values = true, value_parser = numbers(0.0, 1e6, MOST_VALUES))]
     sigma: Values,
     /// Number of masses n.
     #[arg(long, value_name = "n", default_value_t = 100, value_parser = at_least_one)]
@@ -29,10 +29,10 @@ pub struct Args {
     #[arg(long, value_name = "R|A..B", default_value = "1000", value_parser = realisations)]
     realisations: Range<u64>,
     /// Transients T that are dropped, in units of time: a list or a range.
-    #[arg(long, value_name = "T", default_value = "500", value_parser = numbers(0.0, LATEST, 1e5), allow_hyphen_values = true)]
+    #[arg(long, value_name = "T", default_value = "500", value_parser = numbers(0.0, LATEST, MOST_VALUES), allow_hyphen_values = true)]
     transient: Values,
     /// Windows W in which impacts are counted, in units of time: a list or a range.
-    #[arg(long, value_name = "W", default_value = "200", value_parser = numbers(1e-3, LATEST, 1e5), allow_hyphen_values = true)]
+    #[arg(long, value_name = "W", default_value = "200", value_parser = numbers(1e-3, LATEST, MOST_VALUES), allow_hyphen_values = true)]
     window: Values,
     /// Natural frequency ω.
     #[arg(long, value_name = "w", default_value = "1", value_parser = number(1e-3, 1e3), allow_hyphen_values = true)]

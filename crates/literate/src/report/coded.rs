@@ -69,13 +69,13 @@ fn typed(path: &str, code: &str, meant: &HashSet<&str>) -> Vec<Typed> {
     let code = code.split("#[cfg(test)]\nmod ").next().unwrap_or_default();
     let wants_words = meant.iter().any(|word| word.starts_with(char::is_alphabetic));
     let (mut typed, mut begin, mut line, mut lines) = (Vec::new(), 0, 1, 0);
-    let (mut may_have_number, mut has_letter, mut is_in_word) = (wants_words, false, false);
+    let (mut may_have_number, mut is_in_word) = (wants_words, false);
     // One pass over the bytes takes a tenth of the time of splitting.
     let (bytes, mut end) = (code.as_bytes(), 0);
     while end <= bytes.len() {
         match if end < bytes.len() { bytes[end] } else { b'"' } {
             b'"' | b'{' | b'}' => {
-                if may_have_number && has_letter {
+                if may_have_number && code[begin..end].contains(char::is_alphabetic) {
                     let text = code[begin..end].replace(r"\\", r"\");
                     let numerals = lint::find_numbers(&text, 0..text.len(), &Declared::default());
                     let numerals = numerals.into_iter().map(|(_, numeral)| numeral);
@@ -87,16 +87,28 @@ fn typed(path: &str, code: &str, meant: &HashSet<&str>) -> Vec<Typed> {
                     }
                 }
                 (begin, line, lines) = (end + 1, line + lines, 0);
-                (may_have_number, has_letter, is_in_word) = (wants_words, false, false);
+                (may_have_number, is_in_word) = (wants_words, false);
             }
-            b'0'..=b'9' => (may_have_number, is_in_word) = (may_have_number || !is_in_word, true),
-            b'a'..=b'z' | b'A'..=b'Z' => (has_letter, is_in_word) = (true, true),
+            b'0'..=b'9' => {
+                if !may_have_number && !is_in_word {
+                    let (numeral, after) = split_numeral(&code[end..]);
+                    let is_ascii = after.starts_with(|c: char| c.is_ascii());
+                    may_have_number = meant.contains(numeral) || !is_ascii;
+                }
+                is_in_word = true;
+            }
             b'\n' => (lines, is_in_word) = (lines + 1, false),
-            byte => (has_letter, is_in_word) = (has_letter || byte >= 128, byte == b'_'),
+            byte => is_in_word = byte.is_ascii_alphabetic() || byte == b'_',
         }
         end += 1;
     }
     typed
+}
+
+/// Splits off the numeral of ASCII that a text begins with.
+fn split_numeral(text: &str) -> (&str, &str) {
+    let after = text.trim_start_matches(|c: char| ".,0123456789".contains(c));
+    (text[..text.len() - after.len()].trim_end_matches(['.', ',']), after)
 }
 
 /// All texts that code gives, with the file that draws it for one of a figure, and whether number
@@ -146,4 +158,20 @@ fn is_number(text: &str, at: usize, numeral: &str) -> bool {
     let is_year = numeral.len() == 4 && before.ends_with('(') && after.starts_with(')');
     let is_name = NUMBERED.contains(&name) || is_year && name.starts_with(char::is_uppercase);
     !["0", "1"].contains(&numeral) && !is_script && !is_factor && !is_divisor && !is_name
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_is_typed_where_words_stand_beside_it() {
+        let code = "[\"−2\", \"·10^{}\"]\nfn at() { \"at x2, of 0.12,\"; \"{} ½ of 2½ ways\" }";
+        let meant = HashSet::from(["2", "10", "0.12", "2½"]);
+        let typed = typed("a.rs", code, &meant);
+        let typed =
+            typed.iter().map(|one| format!("{} {}: {:?}", one.place, one.words, one.numerals));
+        let expected = ["a.rs:2 at x2, of 0.12,: [\"0.12\"]", "a.rs:2 ½ of 2½ ways: [\"2½\"]"];
+        assert_eq!(typed.collect::<Vec<_>>(), expected);
+    }
 }

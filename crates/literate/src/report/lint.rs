@@ -61,11 +61,22 @@ impl Declared {
     }
 }
 
-/// Words that are numbers and nothing else, also with the ending *-fold*; units behind a number;
-/// signs that end a side of a relation; and what may surround a number that is still alone.
-static LISTS: LazyLock<[BTreeSet<&str>; 4]> = LazyLock::new(|| {
+/// Lists of words.txt, in its order.
+struct Words {
+    /// Words that are numbers and nothing else, also with the ending *-fold*.
+    numbers: BTreeSet<&'static str>,
+    /// Units behind a number.
+    units: BTreeSet<&'static str>,
+    /// Signs that end a side of a relation.
+    relations: BTreeSet<&'static str>,
+    /// What may surround a number in a formula that is still alone.
+    around: BTreeSet<&'static str>,
+}
+
+static WORDS: LazyLock<Words> = LazyLock::new(|| {
     let mut lists = include_str!("words.txt").split("\n\n");
-    [(); 4].map(|()| lists.next().unwrap_or_default().split_whitespace().collect())
+    let mut list = || lists.next().unwrap_or_default().split_whitespace().collect();
+    Words { numbers: list(), units: list(), relations: list(), around: list() }
 });
 
 fn is_number_word(word: &str) -> bool {
@@ -78,7 +89,7 @@ fn is_number_word(word: &str) -> bool {
     }
     let word = word.to_lowercase();
     let word = word.strip_suffix("fold").unwrap_or(&word);
-    LISTS[0].contains(word)
+    WORDS.numbers.contains(word)
 }
 
 /// Returns the hard-coded numbers in a part of a text, with their offsets; marks are skipped.
@@ -173,7 +184,7 @@ fn unit(text: &str) -> Option<String> {
     let ends = |c: char| c.is_whitespace() || ",.;:!?()[]{}|*_$\\".contains(c) || c == OPEN;
     let unit = text.split(ends).next().unwrap_or_default().replace('μ', "µ");
     let first = unit.split(['/', '·', '²', '³']).next()?;
-    LISTS[1].contains(first).then_some(unit)
+    WORDS.units.contains(first).then_some(unit)
 }
 
 /// Describes what stands beside a value and changes its unit or sign, or returns `None` if nothing.
@@ -233,7 +244,7 @@ const DIGITS: &str = "0123456789 .,+-−^{}%\\()";
 /// Returns the sides of the relations in a formula, without what may surround a number, and whether
 /// each is what something equals.
 fn sides(tex: &str) -> Vec<(String, bool)> {
-    let [_, _, between, around] = &*LISTS;
+    let Words { relations, around, .. } = &*WORDS;
     let mut tex = tex.replace(r"\begin{aligned}", "").replace(r"\end{aligned}", "");
     // A number with a unit or another word is still a number alone.
     for open in [r"\text{", r"\textrm{", r"\mathrm{"] {
@@ -247,7 +258,7 @@ fn sides(tex: &str) -> Vec<(String, bool)> {
     for sign in tex::signs(&tex) {
         depth += i32::from("{([".contains(sign)) - i32::from("})]".contains(sign));
         match sides.last_mut() {
-            Some((side, _)) if depth > 0 || !between.contains(sign) => {
+            Some((side, _)) if depth > 0 || !relations.contains(sign) => {
                 side.push_str(if around.contains(sign) { "" } else { sign });
             }
             _ => sides.push((String::new(), EQUALS.contains(&sign))),
@@ -321,7 +332,7 @@ mod tests {
         let sentence = "k_12";
         assert_eq!(find_numbers(sentence, 2..4, &Declared::default()), [], "the part of a word");
         assert!(Declared::read("[[literal]]\nwhy = \" \"\nphrases = [\"two\"]").is_err());
-        assert_eq!(LISTS[0].iter().find(|word| !is_number_word(word)), None);
+        assert_eq!(WORDS.numbers.iter().find(|word| !is_number_word(word)), None);
     }
 
     #[test]
