@@ -75,7 +75,7 @@ pub fn times(latest: f64) -> impl Parse<Times> {
 
 #[cfg(test)]
 mod tests {
-    use super::numbers;
+    use super::{MOST_VALUES, numbers};
 
     #[test]
     fn lists_and_ranges() {
