@@ -27,7 +27,8 @@ struct Run {
     until: f64,
     /// Whether each gap has an impact in the window.
     hit: Vec<bool>,
-    /// Of each impact the time, the gap of the engine and the closing speed, as eight bytes each.
+    /// Of each impact the time, the gap as the engine numbers it, and the closing speed; eight
+    /// bytes each, the lowest first, doubles bit by bit.
     hash: Sha256,
 }
 
@@ -44,13 +45,60 @@ thread_local! {
     static PAGE: RefCell<Page> = RefCell::default();
 }
 
-/// What ends a call: an error of the engine or of the theory, or a text.
-type Refusal = Box<dyn std::error::Error>;
+impl Page {
+    /// Starts the run that numbers and text describe.
+    fn open(&mut self) -> Result<(), String> {
+        self.run = None;
+        let stream = String::from_utf8_lossy(&self.text);
+        let ([transient, window], scenario) = read_request(&self.numbers, &stream)?;
+        let until = transient + window;
+        let engine = Engine::new(&scenario).map_err(|error| error.to_string())?;
+        let gaps = scenario.gaps();
+        self.picture = vec![0; COLUMNS * gaps];
+        self.run =
+            Some(Run { engine, transient, until, hit: vec![false; gaps], hash: Sha256::new() });
+        Ok(())
+    }
+
+    /// Advances the run by at most `most` impacts; returns whether there may be more.
+    fn advance(&mut self, most: u64) -> Result<bool, String> {
+        let Some(Run { engine, transient, until, hit, hash }) = &mut self.run else {
+            return Ok(false);
+        };
+        let (gaps, mut left) = (hit.len(), most);
+        let ended = engine.run(*until, |event, _| {
+            let Event::Impact(Impact { time, gap, closing_speed }) = *event else {
+                return Continue(());
+            };
+            for bits in [time.to_bits(), gap as u64, closing_speed.to_bits()] {
+                hash.update(bits.to_le_bytes());
+            }
+            // Gaps of a ring are numbered from 1.
+            let gap = gap % gaps;
+            hit[gap] |= time > *transient;
+            let column = ((time / *until * COLUMNS as f64) as usize).min(COLUMNS - 1);
+            self.picture[gap * COLUMNS + column] += 1;
+            left = left.saturating_sub(1);
+            if left > 0 { Continue(()) } else { Break(()) }
+        });
+        let distinct = hit.iter().filter(|hit| **hit).count();
+        self.numbers = vec![
+            if ended == Ok(End::Stopped) { engine.time() } else { *until },
+            engine.counters().impacts as f64,
+            distinct as f64,
+            gaps as f64,
+            COLUMNS as f64,
+        ];
+        let digest = hash.clone().finalize();
+        self.text = digest.iter().map(|byte| format!("{byte:02x}")).collect::<String>().into();
+        ended.map(|end| end == End::Stopped).map_err(|error| error.to_string())
+    }
+}
 
 /// Reads T, W and a scenario from numbers in this order: T, W, the chain (n, d, ω, Ω, r, 1 for a
 /// ring, start 0 rest, 1 zero or 2 random), then σ, seed and realisation of the stream that the
 /// text names; without one, α and β of each mass.
-fn read_request(numbers: &[f64], stream: &str) -> Result<([f64; 2], Scenario), Refusal> {
+fn read_request(numbers: &[f64], stream: &str) -> Result<([f64; 2], Scenario), String> {
     let [transient, window, n, spacing, natural, forcing, restitution, ring, start, rest @ ..] =
         numbers
     else {
@@ -72,7 +120,7 @@ fn read_request(numbers: &[f64], stream: &str) -> Result<([f64; 2], Scenario), R
     let scenario = match (rest, stream) {
         (pairs, "") => {
             let pairs = pairs.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect();
-            Scenario::given(&chain, pairs)?
+            Scenario::given(&chain, pairs).map_err(|error| error.to_string())?
         }
         ([sigma, seed, realisation], _) => {
             let mut normals = NormalPairs::new(stream, Seed(*seed as u64), *realisation as u64);
@@ -84,11 +132,11 @@ fn read_request(numbers: &[f64], stream: &str) -> Result<([f64; 2], Scenario), R
 }
 
 /// Runs `work` on the page: 1 or 0 for its result, or 2 with the refusal as the text.
-fn answer(work: impl FnOnce(&mut Page) -> Result<bool, Refusal>) -> u32 {
+fn answer(work: impl FnOnce(&mut Page) -> Result<bool, String>) -> u32 {
     PAGE.with_borrow_mut(|page| match work(page) {
         Ok(may_go_on) => u32::from(may_go_on),
-        Err(refusal) => {
-            page.text = refusal.to_string().into_bytes();
+        Err(message) => {
+            page.text = message.into_bytes();
             2
         }
     })
@@ -106,16 +154,7 @@ pub extern "C" fn room(bytes: usize, numbers: usize) {
 /// Starts the run that numbers and text describe: 0, or 2 with the reason as the text.
 #[unsafe(no_mangle)]
 pub extern "C" fn open() -> u32 {
-    answer(|page| {
-        page.run = None;
-        let stream = String::from_utf8_lossy(&page.text);
-        let ([transient, window], scenario) = read_request(&page.numbers, &stream)?;
-        let (until, hit) = (transient + window, vec![false; scenario.gaps()]);
-        let engine = Engine::new(&scenario)?;
-        page.picture = vec![0; COLUMNS * hit.len()];
-        page.run = Some(Run { engine, transient, until, hit, hash: Sha256::new() });
-        Ok(false)
-    })
+    answer(|page| page.open().map(|()| false))
 }
 
 /// Advances by so many impacts at most: 1 if there may be more, 0 at the end, 2 if it failed. The
@@ -123,33 +162,7 @@ pub extern "C" fn open() -> u32 {
 /// the text is the digest, or the error.
 #[unsafe(no_mangle)]
 pub extern "C" fn advance(impacts: u32) -> u32 {
-    answer(|page| {
-        let Page { run: Some(run), picture, .. } = page else { return Ok(false) };
-        let Run { engine, transient, until, hit, hash } = run;
-        let (gaps, mut left) = (hit.len(), impacts);
-        let ended = engine.run(*until, |event, _| {
-            let Event::Impact(Impact { time, gap, closing_speed }) = *event else {
-                return Continue(());
-            };
-            for bits in [time.to_bits(), gap as u64, closing_speed.to_bits()] {
-                hash.update(bits.to_le_bytes());
-            }
-            // Gaps of a ring are numbered from 1.
-            let gap = gap % gaps;
-            hit[gap] |= time > *transient;
-            let column = ((time / *until * COLUMNS as f64) as usize).min(COLUMNS - 1);
-            picture[gap * COLUMNS + column] += 1;
-            left = left.saturating_sub(1);
-            if left > 0 { Continue(()) } else { Break(()) }
-        });
-        let time = if ended == Ok(End::Stopped) { engine.time() } else { *until };
-        let different = hit.iter().filter(|hit| **hit).count() as f64;
-        let impacts = engine.counters().impacts as f64;
-        page.numbers = vec![time, impacts, different, gaps as f64, COLUMNS as f64];
-        let digest = hash.clone().finalize();
-        page.text = digest.iter().map(|byte| format!("{byte:02x}")).collect::<String>().into();
-        Ok(ended? == End::Stopped)
-    })
+    answer(|page| page.advance(impacts.into()))
 }
 
 /// Advances to a time, which is not before the last: 0, or 2 if it failed. The numbers are then the
@@ -158,8 +171,9 @@ pub extern "C" fn advance(impacts: u32) -> u32 {
 pub extern "C" fn follow(time: f64) -> u32 {
     answer(|page| {
         let engine = &mut page.run.as_mut().ok_or("nothing is open")?.engine;
-        let impacts = engine.impacts(time)?;
-        page.numbers = engine.state(time)?.positions;
+        let message = |error: impact_chain::Error| error.to_string();
+        let impacts = engine.impacts(time).map_err(message)?;
+        page.numbers = engine.state(time).map_err(message)?.positions;
         page.numbers.push(impacts.len() as f64);
         page.numbers.extend(impacts.iter().map(|impact| impact.gap as f64));
         Ok(false)
@@ -171,10 +185,11 @@ pub extern "C" fn follow(time: f64) -> u32 {
 #[unsafe(no_mangle)]
 pub extern "C" fn law(vertices: usize, p: f64) -> u32 {
     answer(|page| {
-        let law = Law::new(SampleSpace::Simple, vertices, p)?;
+        let message = |error: impact_circuits::Error| error.to_string();
+        let law = Law::new(SampleSpace::Simple, vertices, p).map_err(message)?;
         let after = jump::p_jump(SampleSpace::Simple, vertices).map_or(-1.0, |jump| jump.p);
         let [minus, plus] = jump::zeros(vertices, p).unwrap_or([-1.0; 2]);
-        let crit = jump::p_crit(vertices)?;
+        let crit = jump::p_crit(vertices).map_err(message)?;
         page.numbers = vec![law.k_star() as f64, law.mean(), crit, after, minus, plus];
         page.numbers.extend(law.probabilities());
         page.numbers.extend((1..=vertices).map(|k| jump::f(vertices, p, k as f64)));
@@ -246,10 +261,11 @@ mod tests {
     #[test]
     fn what_is_no_run_and_no_probability_is_refused() {
         let numbers = vec![50.0, 20.0, 30.0, 1.0, 1.0, 1.5, 0.8, 0.0, 0.0];
-        PAGE.set(Page { numbers, ..Page::default() });
-        assert_eq!(open(), 2);
-        let error = String::from_utf8(PAGE.take().text).unwrap();
-        assert!(error.starts_with("forcing: it has 0 pairs for 30 masses; give one"), "{error}");
+        let message = Page { numbers, ..Page::default() }.open().unwrap_err();
+        assert!(
+            message.starts_with("forcing: it has 0 pairs for 30 masses; give one"),
+            "{message}"
+        );
         assert_eq!([law(100, f64::NAN), law(100, 0.02)], [2, 0]);
     }
 }
