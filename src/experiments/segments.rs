@@ -75,8 +75,8 @@ impl Segment {
     pub fn repeats(&self) -> Vec<(String, usize)> {
         let mut names = self.names();
         names.sort();
-        let all = names.chunk_by(|a, b| a == b).map(|same| (same[0].clone(), same.len() - 1));
-        let mut repeats: Vec<_> = all.filter(|(_, times)| *times > 0).collect();
+        let counts = names.chunk_by(|a, b| a == b).map(|same| (same[0].clone(), same.len() - 1));
+        let mut repeats: Vec<_> = counts.filter(|(_, times)| *times > 0).collect();
         repeats.sort_by_key(|(_, times)| std::cmp::Reverse(*times));
         repeats
     }

@@ -32,7 +32,7 @@ impl Text {
         mut number_of: impl FnMut(&str) -> Option<Number>,
     ) -> Result<Text, &str> {
         let mut pieces = sentence.split('{');
-        let mut text = Text::from(pieces.next().unwrap_or_default());
+        let mut filled = Text::from(pieces.next().unwrap_or_default());
         for piece in pieces {
             let (mark, words) = piece.split_once('}').unwrap_or((piece, ""));
             let (name, digits) = mark.split_once(':').unwrap_or((mark, ""));
@@ -40,9 +40,9 @@ impl Text {
             if !digits.is_empty() {
                 number = number.significant(digits.parse().map_err(|_| mark)?);
             }
-            text = text.then(number).then(words);
+            filled = filled.then(number).then(words);
         }
-        Ok(text)
+        Ok(filled)
     }
 
     /// Returns the text with more at its end.

@@ -194,8 +194,8 @@ fn reference(entry: &Entry, own: &Entry) -> Result<Reference, String> {
 }
 
 fn enclosed(before: &str, inner: Vec<Inline>, after: &str) -> Vec<Inline> {
-    let text = |words: &str| vec![Inline::Text(words.into())];
-    if inner.is_empty() { inner } else { [text(before), inner, text(after)].concat() }
+    let inlines = |words: &str| vec![Inline::Text(words.into())];
+    if inner.is_empty() { inner } else { [inlines(before), inner, inlines(after)].concat() }
 }
 
 /// Reads a field, which may be absent; macros other than accents are refused.

@@ -76,13 +76,13 @@ fn typed(path: &str, code: &str, meant: &HashSet<&str>) -> Vec<Typed> {
         match if end < bytes.len() { bytes[end] } else { b'"' } {
             b'"' | b'{' | b'}' => {
                 if may_have_number && code[begin..end].contains(char::is_alphabetic) {
-                    let text = code[begin..end].replace(r"\\", r"\");
-                    let numerals = lint::find_numbers(&text, 0..text.len(), &Declared::default());
+                    let piece = code[begin..end].replace(r"\\", r"\");
+                    let numerals = lint::find_numbers(&piece, 0..piece.len(), &Declared::default());
                     let numerals = numerals.into_iter().map(|(_, numeral)| numeral);
                     let numerals: Vec<_> = numerals.filter(|one| meant.contains(&**one)).collect();
                     if !numerals.is_empty() {
                         let place = format!("{path}:{line}");
-                        let words = bare(&text.replace('\\', ""));
+                        let words = bare(&piece.replace('\\', ""));
                         typed.push(Typed { place, words, numerals });
                     }
                 }
